@@ -1,0 +1,87 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/execution/behaviour.h"
+#include "casepush/model/case.h"
+#include "casepush/model/push_report.h"
+#include "casepush/model/robot_model.h"
+#include "casepush/planning/push_planner.h"
+
+namespace casepush {
+
+/// A push to try for the first time (paper section 3.2): where to start, which way, how long.
+struct PushConfiguration {
+  Pose2 object_T_robot;       ///< Start pose R_0 with respect to the resting object.
+  double direction_rad = 0.0; ///< Of the motion, in the robot frame.
+  double speed_mps = 0.3;
+  double yaw_rate_rps = 0.0;
+  double duration_s = 2.0;    ///< 1 to 3 s in the paper.
+};
+
+/// What the robot's base should do during a push, in the frame of the object's resting pose.
+struct PushTrajectory {
+  double period_s = 0.1;
+  std::vector<Pose2> start_T_robot;  ///< Samples from t = 0.
+  std::vector<Twist2> action;        ///< In the robot frame.
+};
+PushTrajectory pushTrajectory(const PushConfiguration& configuration, const RobotLimits& limits,
+                              double period_s);
+/// The pushing phase of a recorded case.
+PushTrajectory pushTrajectory(const Case& push_case);
+
+struct ExecutePushOptions {
+  double sample_period_s = 0.1;
+  double approach_speed_mps = 0.5;
+  double dock_speed_mps = 0.15;
+  double position_gain = 2.0;     ///< Of trajectory tracking [1/s].
+  double yaw_gain = 2.5;          ///< [1/s]
+  double dock_tolerance_m = 0.015;
+  double dock_tolerance_rad = 0.03;
+  double rest_speed_mps = 0.02;   ///< Below both for rest_time_s: at rest.
+  double rest_yaw_rate_rps = 0.05;
+  double rest_time_s = 0.4;
+  double rest_timeout_s = 15.0;
+  double approach_timeout_s = 120.0;
+  double stale_robot_s = 0.2;     ///< Age of the robot's pose above which it stops.
+  double lost_object_s = 1.0;     ///< Age of the object's pose above which a push is abandoned.
+  double alpha = 0.01;            ///< Of the prediction test.
+  void validate() const;          ///< @throws InputError listing every violation.
+};
+
+/// Finds the robot's way to `goal` ending straight along `dock_direction_rad` (in the map).
+using ApproachPlanner = std::function<RobotPath(const Observation& observation, const Pose2& goal,
+                                                double dock_direction_rad)>;
+
+/// Approaches, pushes, waits until the object rests, and reports: one push from beginning to end.
+class ExecutePush : public Behaviour {
+ public:
+  /// Tries a configuration for the first time.
+  ExecutePush(std::string object_id, PushConfiguration configuration, RobotModel robot,
+              ApproachPlanner approach, ExecutePushOptions options);
+  /// Replays a case (practice or plan execution) and tests its prediction.
+  ExecutePush(std::string object_id, Case push_case, RobotModel robot, ApproachPlanner approach,
+              ExecutePushOptions options);
+  ~ExecutePush() override;
+
+  Tick tick(const Observation& observation) override;
+  std::string describe() const override;
+
+  void cancel();  ///< The next tick fails with kCancelled and commands zero.
+
+  enum class Phase { kApproach, kDock, kPush, kRest, kFinished };
+  Phase phase() const;
+
+  /// Set once finished, whether it succeeded or failed.
+  const std::optional<PushReport>& report() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace casepush

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "casepush/common/pose_gaussian.h"
+
+namespace casepush {
+
+/// One sample of a push: the paper's (R_j, a_j, O_j) of section 3.1.
+struct CaseStep {
+  Pose2 object_T_robot;  ///< R_j.
+  Twist2 action;         ///< a_j, commanded, in the robot frame.
+  Pose2 start_T_object;  ///< O_j, with respect to the object's last resting pose.
+
+  Pose2 start_T_robot() const { return start_T_object * object_T_robot; }
+};
+
+enum class CaseOrigin { kExplored, kDemonstrated, kTransferred };
+
+/// A probabilistic case: a push that was tried, and the distribution of where the object rests.
+///
+/// Samples are `period_s` apart. The robot pushes during the first `push_steps` samples; later ones
+/// record the object coasting to rest. The last step is at rest.
+struct Case {
+  std::int64_t id = 0;  ///< Positive once stored.
+  std::string object;   ///< Name of the ObjectModel.
+  std::string robot;    ///< Name of the RobotModel.
+  CaseOrigin origin = CaseOrigin::kExplored;
+  double period_s = 0.1;
+  int push_steps = 0;
+  std::vector<CaseStep> steps;
+
+  PoseGaussian start_outcome;  ///< Over the final resting pose in the start frame (eq. 1, 2).
+  double effective_count = 0;  ///< n of the statistics; W + 1 after adaptation (eq. 7-9).
+  int observation_count = 0;   ///< Pushes ever observed.
+
+  double durationS() const { return period_s * static_cast<double>(steps.size()); }
+  double pushDurationS() const { return period_s * push_steps; }
+};
+
+/// Checks what every part of the program relies on.
+/// @throws InputError naming `where` and the field: no steps, a value that is not finite, a period
+///   that is not positive, push_steps out of range, a matrix that is no covariance.
+void validateCase(const Case& push_case, const std::string& where);
+
+}  // namespace casepush

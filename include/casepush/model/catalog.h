@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "casepush/model/object_model.h"
+#include "casepush/model/robot_model.h"
+#include "casepush/model/world_model.h"
+
+namespace casepush {
+
+/// Finds objects, robots and worlds by name (in `<share>/config`) or by file.
+class Catalog {
+ public:
+  /// `share` is the folder that holds `config/`.
+  explicit Catalog(std::filesystem::path share);
+
+  /// The package's own folder; the environment variable CASEPUSH_SHARE overrides it.
+  static Catalog standard();
+
+  /// @throws InputError if there is no such name (listing those there are) or the file is bad.
+  ObjectModel object(const std::string& name_or_file) const;
+  RobotModel robot(const std::string& name_or_file) const;
+  WorldModel world(const std::string& name_or_file) const;
+
+  std::vector<std::string> objectNames() const;
+  std::vector<std::string> robotNames() const;
+  std::vector<std::string> worldNames() const;
+
+  const std::filesystem::path& share() const { return share_; }
+
+ private:
+  std::filesystem::path find(const std::string& kind, const std::string& extension,
+                             const std::string& name_or_file) const;
+  std::vector<std::string> names(const std::string& kind, const std::string& extension) const;
+
+  std::filesystem::path share_;
+};
+
+}  // namespace casepush

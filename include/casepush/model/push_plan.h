@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/common/pose_gaussian.h"
+
+namespace casepush {
+
+/// An instance of an object somewhere.
+struct PlacedObject {
+  std::string id;
+  std::string model;
+  Pose2 map_T_object;
+};
+
+/// Success region of a push task (paper section 6: 0.2 m and pi/9).
+struct GoalTolerance {
+  double position_m = 0.2;
+  double yaw_rad = 0.34906585039886590;  // pi / 9
+
+  bool isMet(const Pose2& goal, const Pose2& pose) const;
+};
+
+/// One push of a plan.
+struct PlannedPush {
+  std::int64_t case_id = 0;
+  Pose2 map_T_start;         ///< Where the object stands before the push (phi_S in phi_G).
+  PoseGaussian map_outcome;  ///< Where it is expected to rest.
+};
+
+/// A chain of pushes.
+struct PushPlan {
+  PlacedObject object;  ///< At the start.
+  Pose2 map_T_goal;
+  GoalTolerance tolerance;
+  std::vector<PlannedPush> pushes;
+
+  double lengthM() const;  ///< Sum of the distances between successive resting poses.
+};
+
+struct PlanRequest {
+  PlacedObject object;
+  Pose2 map_T_goal;
+  GoalTolerance tolerance;
+  Pose2 map_T_robot;
+  std::vector<PlacedObject> obstacles;  ///< Other known objects; they stand still.
+  std::uint64_t seed = 1;
+  double deadline_s = 10.0;  ///< Wall time; the planner returns by then.
+};
+
+enum class PlanStatus {
+  kSolved,
+  kInvalidRequest,    ///< Not finite, unknown object, bad tolerance.
+  kNoCases,           ///< The case base has none for this object.
+  kStartInCollision,
+  kGoalInCollision,
+  kGoalOutsideMap,
+  kUnreachable,       ///< The whole tree was grown and no plan found.
+  kDeadline,
+  kCancelled,
+  kPlannerGone,       ///< Whoever should plan does not answer.
+};
+const char* toString(PlanStatus status);
+
+/// One edge of the search tree, for display.
+struct TreeEdge {
+  Pose2 from;
+  Pose2 to;
+};
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kInvalidRequest;
+  std::string explanation;  ///< One line for a person, also when solved.
+  PushPlan plan;
+  int nodes = 0;           ///< Tree size.
+  int collision_checks = 0;
+  double planning_s = 0.0;  ///< Wall time; the only field that a seed does not fix.
+  std::vector<TreeEdge> tree;
+};
+
+/// How behaviours ask for plans: directly in the lab, over an action under ROS. Never blocks long.
+class PlanClient {
+ public:
+  virtual ~PlanClient() = default;
+  virtual void request(const PlanRequest& request) = 0;  ///< Replaces a pending request.
+  virtual std::optional<PlanResult> poll() = 0;          ///< The result, once.
+  virtual void cancel() = 0;
+  virtual bool isAlive() const = 0;  ///< False as soon as the planner is known to be gone.
+};
+
+}  // namespace casepush

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/common/pose2.h"
+#include "casepush/model/geometry.h"
+
+namespace casepush {
+
+/// Walls and furniture that never move.
+struct StaticBox {
+  std::string name;
+  Box box;
+  Eigen::Isometry3d map_T_box = Eigen::Isometry3d::Identity();
+};
+
+/// The floor's part in friction and rolling resistance.
+struct Floor {
+  double friction = 0.8;                 ///< Coulomb coefficient of a wheel's contact.
+  double rolling_lever_arm_m = 0.0024;   ///< f of F = f N / r (Al-Eisawi et al. 1999: tile).
+};
+
+/// One pushable object in a world.
+struct ObjectPlacement {
+  std::string id;     ///< Unique in the world, e.g. "chair_1".
+  std::string model;  ///< Name or file of an ObjectModel.
+  Pose2 map_T_object;
+  int tag_offset = 0;  ///< Added to every tag id of the model, so that instances differ.
+};
+
+/// A room: YAML file of config/worlds. Its map frame has z = 0 on the floor.
+struct WorldModel {
+  std::string name;
+  Eigen::Vector2d min_m{-5.0, -5.0};  ///< Bounds of the map.
+  Eigen::Vector2d max_m{5.0, 5.0};
+  Floor floor;
+  std::vector<StaticBox> boxes;
+  std::vector<ObjectPlacement> objects;
+  std::string robot = "cobot";  ///< Name or file of a RobotModel.
+  Pose2 map_T_robot;
+  std::optional<Pose2> goal;  ///< Of the first object, for demonstrations.
+
+  bool contains(const Pose2& map_T_x) const;
+};
+
+/// @throws InputError naming file, element and reason; also if an object or the robot stands outside.
+WorldModel loadWorldModel(const std::filesystem::path& yaml_file);
+
+}  // namespace casepush

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "casepush/model/object_model.h"
+#include "casepush/model/observation.h"
+#include "casepush/model/tag_detection.h"
+
+namespace casepush {
+
+struct PoseTrackerOptions {
+  double acceleration_noise_mps2 = 1.5;       ///< Process noise while an object is pushed.
+  double yaw_acceleration_noise_rps2 = 4.0;
+  double gate_p_value = 1e-4;      ///< Detections less probable than this are outliers.
+  int reacquire_after = 5;         ///< Consecutive outlier images after which the track restarts.
+  double moving_speed_mps = 0.03;  ///< Above either, an object counts as moving.
+  double moving_yaw_rate_rps = 0.06;
+  double forget_after_s = 60.0;    ///< Unseen for so long, an object is no longer reported.
+  double localisation_sigma_m = 0.005;    ///< Of the robot's own pose, added to each detection.
+  double localisation_sigma_rad = 0.003;
+  void validate() const;  ///< @throws InputError listing every violation.
+};
+
+/// An instance to track.
+struct TrackedObject {
+  std::string id;
+  ObjectModel model;
+  int tag_offset = 0;
+};
+
+/// Fuses tag detections of all cameras to one pose with covariance per object: an extended Kalman
+/// filter on SE(2) with constant velocity, one update per tag, gated by Mahalanobis distance.
+class PoseTracker {
+ public:
+  /// @throws InputError if two instances share a tag id or an object has no tags.
+  PoseTracker(std::vector<TrackedObject> objects, PoseTrackerOptions options);
+  ~PoseTracker();
+
+  /// @param map_T_robot  At the image's stamp.
+  /// @param base_T_camera  Of the camera that took it.
+  /// Frames older than the newest one by more than 1 s, and values that are not finite, are ignored
+  /// and counted.
+  void addFrame(const TagFrame& frame, const Pose2& map_T_robot,
+                const Eigen::Isometry3d& base_T_camera);
+
+  /// Every object seen so far, predicted to `now_s` (at most 0.2 s ahead); stamp_s is when it was
+  /// last seen.
+  std::vector<ObjectState> states(double now_s) const;
+
+  int ignoredDetections() const;  ///< Unknown tags, outliers, stale or bad frames.
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace casepush

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "casepush/model/case.h"
+#include "casepush/model/object_model.h"
+#include "casepush/model/push_plan.h"
+#include "casepush/model/robot_model.h"
+#include "casepush/planning/robot_path_planner.h"
+#include "casepush/world/map.h"
+
+namespace casepush {
+
+enum class Similarity { kMetric, kPaper };  ///< Of method.md: default metric, or eq. 3 as printed.
+
+struct PushPlannerOptions {
+  Similarity similarity = Similarity::kMetric;
+  double goal_bias = 0.2;       ///< Probability that the sample is the goal (paper: 0.95).
+  int max_nodes = 50625;        ///< Paper section 6.
+  double zeta = 3.0;            ///< Spread of the sigma points (paper: 3).
+  double object_margin_m = 0.0;   ///< Grows the object in every check.
+  double robot_margin_m = 0.03;   ///< Grows the robot along its recorded trajectories.
+  int solutions = 16;           ///< Solutions to compare before the cheapest is returned.
+  RobotPathOptions robot_path;
+  void validate() const;        ///< @throws InputError listing every violation.
+};
+
+/// Plans chains of cases that bring an object to a goal, achievable for object and robot.
+///
+/// Exp-RRT (paper algorithm 1) with the choices of docs/method.md. Each push is checked with the
+/// object's mean trajectory, its sigma points and the robot's trajectory; a plan whose next start
+/// pose the robot cannot reach is not returned.
+/// Deterministic for a given request and seed unless the deadline cuts it off.
+class PushPlanner {
+ public:
+  PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
+              std::map<std::string, ObjectModel> objects, PushPlannerOptions options);
+  ~PushPlanner();
+
+  /// @param cases  Of the request's object; others are ignored.
+  /// @param stop   Asked often; planning ends within 20 ms once it says true.
+  PlanResult plan(const PlanRequest& request, const std::vector<Case>& cases,
+                  const std::function<bool()>& stop = {}) const;
+
+  /// Does the rest of a plan still work if its first push starts from `map_T_object`? Re-anchors the
+  /// chain at the observed pose and checks collisions and goal. Empty explanation: yes.
+  struct Continuation {
+    bool valid = false;
+    std::string explanation;
+    PushPlan plan;  ///< The re-anchored rest.
+  };
+  Continuation continuePlan(const PushPlan& rest, const Pose2& map_T_object,
+                            const std::vector<Case>& cases,
+                            const std::vector<PlacedObject>& obstacles) const;
+
+  /// Path of the robot to a push's start pose among map, obstacles and the object itself.
+  RobotPath approachPath(const PlacedObject& object, const std::vector<PlacedObject>& obstacles,
+                         const Pose2& map_T_robot, const Pose2& map_T_goal,
+                         double dock_direction_rad) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace casepush

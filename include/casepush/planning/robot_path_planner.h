@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "casepush/model/robot_model.h"
+#include "casepush/world/collision_checker.h"
+
+namespace casepush {
+
+struct RobotPathOptions {
+  double margin_m = 0.04;      ///< Kept from everything while driving freely.
+  double dock_margin_m = 0.01; ///< Kept while docking at an object's side.
+};
+
+struct RobotPath {
+  bool found = false;
+  std::string explanation;       ///< Why not, for a person.
+  std::vector<Pose2> waypoints;  ///< In the map, from the robot's pose to the goal, inclusive.
+  double length_m = 0.0;
+};
+
+/// Finds paths of the robot among the map and objects at their true 3-D shape.
+///
+/// The robot is round from above at each height while it travels (omnidirectional); leaving an
+/// object's side (undocking) and reaching the next push's start (docking) are straight motions
+/// checked with its true shape. Grid A* with line-of-sight shortcuts; deterministic.
+class RobotPathPlanner {
+ public:
+  RobotPathPlanner(RobotModel robot, RobotPathOptions options);
+
+  /// @param checker  With every object that stands in the way set as an obstacle, also the one to be
+  ///   pushed next.
+  /// @param dock_direction_rad  Heading in the map of the straight motion that ends in `goal`
+  ///   (the direction of the push).
+  RobotPath plan(const CollisionChecker& checker, const Pose2& map_T_robot, const Pose2& goal,
+                 double dock_direction_rad) const;
+
+ private:
+  RobotModel robot_;
+  RobotPathOptions options_;
+};
+
+}  // namespace casepush

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "casepush/common/pose2.h"
+#include "casepush/model/object_model.h"
+#include "casepush/model/robot_model.h"
+#include "casepush/model/tag_detection.h"
+#include "casepush/model/world_model.h"
+
+namespace casepush {
+
+struct SimulatorOptions {
+  std::uint64_t seed = 1;
+  double step_s = 1.0 / 240.0;
+  int solver_iterations = 30;
+  bool sensor_noise = true;
+  double command_timeout_s = 0.25;       ///< The base stops when commands cease for this long.
+  double localisation_sigma_m = 0.004;   ///< Bounded, correlated error of map_T_odom.
+  double localisation_sigma_rad = 0.002;
+  double localisation_correlation_s = 10.0;
+  void validate() const;  ///< @throws InputError listing every violation.
+};
+
+/// Who touched whom during the steps since the last query.
+struct ContactReport {
+  std::string body_a;  ///< Object id, "robot", or the name of a static box.
+  std::string part_a;  ///< Link of it.
+  std::string body_b;
+  std::string part_b;
+  double impulse_ns = 0.0;  ///< Sum of normal impulses.
+};
+
+/// What the robot itself would report.
+struct OdometryReading {
+  double stamp_s = 0.0;
+  Pose2 map_T_odom;    ///< From localisation.
+  Pose2 odom_T_robot;  ///< From the wheels.
+  Twist2 robot_twist;  ///< In the robot frame.
+};
+
+/// The bundled world: Bullet in double precision, casters as Featherstone joints, sensors.
+///
+/// Deterministic: the same world, seed and sequence of calls give bit-identical results.
+class Simulator {
+ public:
+  /// @throws InputError if start poses overlap each other or a wall.
+  Simulator(WorldModel world, RobotModel robot, std::map<std::string, ObjectModel> models,
+            SimulatorOptions options);
+  ~Simulator();
+
+  /// Commands the base; a twist that is not finite is ignored, one beyond limits is clamped. Returns
+  /// false in either case.
+  bool setCommand(const Twist2& robot_twist);
+
+  void step(int count = 1);
+  double time() const;          ///< Simulated seconds.
+  double stepSeconds() const;
+
+  /// Images taken since the last call whose latency has passed, oldest first.
+  std::vector<TagFrame> takeTagFrames();
+  OdometryReading odometry() const;
+  std::vector<ContactReport> takeContacts();
+
+  /// Ground truth, for judging only.
+  Pose2 trueRobotPose() const;
+  Pose2 trueObjectPose(const std::string& id) const;
+  Twist2 trueObjectTwist(const std::string& id) const;
+  /// Pose of each link in the map, in the order of the object's mechanism.
+  std::vector<Eigen::Isometry3d> trueLinkPoses(const std::string& id) const;
+
+  /// Puts an object or the robot ("robot") somewhere, at rest; the casters swivel at random.
+  /// Time goes on. @throws InputError if there is no such body, the pose is not finite, outside the
+  /// world, or overlaps something (everything stays as it was).
+  void setPose(const std::string& id, const Pose2& map_T_body);
+  /// Several at once, so that they may trade places.
+  void setPoses(const std::map<std::string, Pose2>& map_T_bodies);
+
+  /// Everything as at the start, with a new seed; time starts at 0.
+  void reset(std::uint64_t seed);
+
+  const WorldModel& world() const;
+  const RobotModel& robot() const;
+  const ObjectModel& object(const std::string& id) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace casepush
