@@ -1,23 +1,24 @@
-# Messages, services and actions of the package.
+# Messages, services and actions of the package. Their names differ from those of the domain types:
+# roscpp puts the generated classes into namespace casepush as well.
 add_message_files(FILES
+  AprilTagDetection.msg
+  AprilTagDetectionArray.msg
   BodyPose.msg
-  Case.msg
-  CaseArray.msg
-  CaseStep.msg
   Contact.msg
   ContactArray.msg
+  ExecutedPush.msg
   ExecutorState.msg
+  ObjectPose.msg
   Octomap.msg
-  PlacedObject.msg
-  PlannedPush.msg
-  PoseGaussian.msg
-  PushConfiguration.msg
-  PushPlan.msg
-  PushReport.msg
-  TagDetection.msg
-  TagDetectionArray.msg
-  TrackedObject.msg
-  TrackedObjectArray.msg)
+  Plan.msg
+  PlanStep.msg
+  Pose2DWithCovariance.msg
+  PushCase.msg
+  PushCaseArray.msg
+  PushSample.msg
+  PushableObject.msg
+  PushableObjectArray.msg
+  TrialPush.msg)
 add_service_files(FILES ExportCases.srv ImportCases.srv Reset.srv SetPoses.srv)
 add_action_files(FILES ExecutePush.action LearnObject.action PlanPush.action PushObject.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)
