@@ -1,0 +1,102 @@
+#include "casepush/lab/learning.h"
+
+#include <optional>
+
+namespace casepush {
+namespace {
+
+constexpr char kObjectId[] = "object";
+constexpr double kArenaHalfM = 8.0;
+constexpr double kPushLimitS = 60.0;
+
+WorldModel arena(const std::string& object, const std::string& robot) {
+  WorldModel world;
+  world.name = "arena";
+  world.min_m = {-kArenaHalfM, -kArenaHalfM};
+  world.max_m = {kArenaHalfM, kArenaHalfM};
+  world.robot = robot;
+  world.map_T_robot = Pose2(-2.0, 0.0, 0.0);
+  world.objects.push_back({kObjectId, object, Pose2(), 0});
+  return world;
+}
+
+/// The robot is put where a push starts, so its approach is a straight line.
+RobotPath straightPath(const Observation& observation, const Pose2& goal,
+                       double /*dock_direction_rad*/) {
+  RobotPath path;
+  path.found = true;
+  path.waypoints = {observation.map_T_robot, goal};
+  path.length_m = distance(observation.map_T_robot, goal);
+  return path;
+}
+
+ExecutePush makePush(const Exploration::Trial& trial, const CaseBase& case_base,
+                     const RobotModel& robot, const ExecutePushOptions& options) {
+  if (trial.case_id) {
+    return ExecutePush(kObjectId, case_base.get(*trial.case_id), robot, straightPath, options);
+  }
+  return ExecutePush(kObjectId, trial.configuration, robot, straightPath, options);
+}
+
+}  // namespace
+
+LearningResult learnInLab(const Catalog& catalog, const std::string& object,
+                          const std::string& robot, CaseBase& case_base,
+                          const LearningOptions& options,
+                          const std::function<bool(const LearningProgress&)>& progress) {
+  ClosedLoop loop(catalog, arena(object, robot), options.lab);
+  const ObjectModel& object_model = loop.simulator().object(kObjectId);
+  const RobotModel& robot_model = loop.simulator().robot();
+  Exploration exploration(object_model, robot_model, options.exploration);
+  exploration.resume(case_base.cases(object_model.name));
+
+  LearningResult result;
+  while (const std::optional<Exploration::Trial> trial = exploration.next()) {
+    const LearningProgress now{trial->case_number,     options.exploration.cases,
+                               trial->practice_number, options.exploration.practices,
+                               result.pushes,          exploration.discarded()};
+    if (progress && !progress(now)) {
+      result.explanation = "stopped on request; finished pushes are kept";
+      break;
+    }
+    loop.place({{kObjectId, Pose2()}, {"robot", trial->object_T_robot}});
+    ExecutePush push = makePush(*trial, case_base, robot_model, options.push);
+    loop.run(push, kPushLimitS);
+    if (!push.report()) {
+      push.cancel();
+      push.tick(loop.observe());
+    }
+    ++result.pushes;
+    const PushReport& report = *push.report();
+    std::optional<Case> updated;
+    if (trial->case_id && report.outcome == PushOutcome::kDone) {
+      updated =
+          case_base.observe(*trial->case_id, report.recorded.start_outcome.mean, options.floor);
+    }
+    switch (exploration.judge(report, updated)) {
+      case Exploration::Verdict::kStoreCase:
+        exploration.stored(case_base.add(report.recorded));
+        break;
+      case Exploration::Verdict::kDropCase:
+        case_base.remove(*trial->case_id);
+        break;
+      case Exploration::Verdict::kObserve:
+      case Exploration::Verdict::kDiscard:
+        break;
+    }
+  }
+  result.discarded = exploration.discarded();
+  result.dropped = exploration.dropped();
+  result.sim_time_s = loop.simulator().time();
+  result.success = exploration.finished() && !exploration.gaveUp();
+  if (exploration.gaveUp()) {
+    result.explanation = "gave up after " + std::to_string(result.discarded) +
+                         " useless pushes; allow faster or longer pushes, or check that the robot "
+                         "can reach the object";
+  } else if (result.success) {
+    result.explanation = "learnt " + std::to_string(options.exploration.cases) + " cases";
+  }
+  return result;
+}
+
+}  // namespace casepush

@@ -1,0 +1,131 @@
+#include <algorithm>
+
+#include "casepush/common/input_error.h"
+#include "casepush/common/random.h"
+#include "casepush/lab/push_run.h"
+#include "casepush/planning/robot_path_planner.h"
+
+namespace casepush {
+namespace {
+
+constexpr int kAttempts = 20000;
+constexpr double kRobotStartGapM = 0.3;
+
+ObjectPlacement& placementOf(WorldModel& world, const Catalog& catalog, const std::string& object) {
+  if (world.objects.empty()) {
+    throw InputError("world " + world.name, "holds no object; add one under `objects`");
+  }
+  const std::string wanted = catalog.object(object).name;
+  for (ObjectPlacement& placement : world.objects) {
+    if (catalog.object(placement.model).name == wanted) {
+      return placement;
+    }
+  }
+  world.objects.front().model = object;
+  return world.objects.front();
+}
+
+Pose2 randomPose(const WorldModel& world, Random& random) {
+  const double x = random.uniform(world.min_m.x(), world.max_m.x());
+  const double y = random.uniform(world.min_m.y(), world.max_m.y());
+  return {x, y, random.uniform(-M_PI, M_PI)};
+}
+
+/// Decides whether random poses make a problem that is fair to ask.
+class ProblemChecker {
+ public:
+  ProblemChecker(const Catalog& catalog, const WorldModel& world, const ObjectPlacement& placement,
+                 double clearance_m)
+      : map_(surveyMap(world)),
+        checker_(*map_),
+        object_(catalog.object(placement.model)),
+        robot_(catalog.robot(world.robot)),
+        roomy_object_(checker_.footprint(object_.solid, clearance_m)),
+        roomy_robot_(checker_.footprint(robot_.solid, 0.05)),
+        paths_(robot_, RobotPathOptions{}) {
+    std::vector<PlacedSolid> others;
+    for (const ObjectPlacement& other : world.objects) {
+      if (other.id != placement.id) {
+        others.push_back({catalog.object(other.model).solid, other.map_T_object});
+      }
+    }
+    checker_.setObstacles(std::move(others));
+  }
+
+  bool objectFits(const Pose2& pose) const { return !checker_.collides(*roomy_object_, pose); }
+
+  /// A free pose beside the object, found by going around it.
+  std::optional<Pose2> robotBeside(const Pose2& map_T_object, Random& random) const {
+    const double reach_m = object_.radius_m + robot_.radius_m + kRobotStartGapM;
+    for (int i = 0; i < 16; ++i) {
+      const double bearing = random.uniform(-M_PI, M_PI);
+      const Eigen::Vector2d position =
+          map_T_object.position() + reach_m * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+      const Pose2 pose(position.x(), position.y(), bearing + M_PI);
+      if (!checker_.collides(*roomy_robot_, pose)) {
+        return pose;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The robot could drive from one to the other, so the two are not in separate rooms.
+  bool connected(const Pose2& from, const Pose2& to) const {
+    return paths_.plan(checker_, from, to, to.yaw()).found;
+  }
+
+ private:
+  std::shared_ptr<const Map> map_;
+  CollisionChecker checker_;
+  ObjectModel object_;
+  RobotModel robot_;
+  std::shared_ptr<const Footprint> roomy_object_;
+  std::shared_ptr<const Footprint> roomy_robot_;
+  RobotPathPlanner paths_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Map> surveyMap(const WorldModel& world, double resolution_m) {
+  auto map = std::make_shared<Map>(resolution_m);
+  map->addSurvey(surveyPoints(world, resolution_m));
+  return map;
+}
+
+PushProblem problemFromWorld(const Catalog& catalog, const WorldModel& world,
+                             const std::string& object, const Pose2& map_T_goal) {
+  PushProblem problem{world, "", map_T_goal};
+  problem.object_id = placementOf(problem.world, catalog, object).id;
+  return problem;
+}
+
+PushProblem randomProblem(const Catalog& catalog, const WorldModel& world,
+                          const std::string& object, std::uint64_t seed, double min_distance_m,
+                          double clearance_m) {
+  PushProblem problem{world, "", Pose2()};
+  ObjectPlacement& placement = placementOf(problem.world, catalog, object);
+  problem.object_id = placement.id;
+  const ProblemChecker checker(catalog, problem.world, placement, clearance_m);
+  Random random = Random::stream(seed, "push problem");
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const Pose2 start = randomPose(world, random);
+    const Pose2 goal = randomPose(world, random);
+    if (distance(start, goal) < min_distance_m || !checker.objectFits(start) ||
+        !checker.objectFits(goal)) {
+      continue;
+    }
+    const std::optional<Pose2> robot_start = checker.robotBeside(start, random);
+    const std::optional<Pose2> robot_end = checker.robotBeside(goal, random);
+    if (!robot_start || !robot_end || !checker.connected(*robot_start, *robot_end)) {
+      continue;
+    }
+    placement.map_T_object = start;
+    problem.world.map_T_robot = *robot_start;
+    problem.map_T_goal = goal;
+    return problem;
+  }
+  throw InputError("world " + world.name, "has no room for a random start and goal of " + object +
+                                              "; use a larger or emptier world, or give --goal");
+}
+
+}  // namespace casepush

@@ -1,0 +1,114 @@
+#include "casepush/lab/push_run.h"
+
+#include <utility>
+
+namespace casepush {
+namespace {
+
+constexpr double kSettleS = 1.0;
+
+/// Cases in memory that the pushes of one task adapt.
+class WorkingCases {
+ public:
+  WorkingCases(std::vector<Case> cases, const PushRunOptions& options)
+      : cases_(std::move(cases)), options_(options) {}
+
+  const std::vector<Case>& all() const { return cases_; }
+
+  void learnFrom(const PushReport& report) {
+    if (!options_.adapt || report.outcome != PushOutcome::kDone) {
+      return;
+    }
+    for (Case& push_case : cases_) {
+      if (push_case.id == report.case_id) {
+        const OutcomeStatistics past{push_case.start_outcome, push_case.effective_count};
+        const double weight =
+            adaptationWeight(report.test.p_value, options_.adaptation_k, push_case.effective_count);
+        const OutcomeStatistics now =
+            adapt(past, report.map_T_start.inverse() * report.map_T_end, weight, options_.floor);
+        push_case.start_outcome = now.start_outcome;
+        push_case.effective_count = now.effective_count;
+        ++push_case.observation_count;
+      }
+    }
+  }
+
+ private:
+  std::vector<Case> cases_;
+  const PushRunOptions& options_;
+};
+
+std::map<std::string, ObjectModel> modelsByName(const Simulator& simulator) {
+  std::map<std::string, ObjectModel> models;
+  for (const ObjectPlacement& placement : simulator.world().objects) {
+    const ObjectModel& model = simulator.object(placement.id);
+    models.emplace(model.name, model);
+  }
+  return models;
+}
+
+}  // namespace
+
+DirectPlanClient::DirectPlanClient(const PushPlanner& planner,
+                                   std::function<std::vector<Case>()> cases)
+    : planner_(planner), cases_(std::move(cases)) {}
+
+void DirectPlanClient::request(const PlanRequest& request) {
+  result_ = planner_.plan(request, cases_());
+}
+
+std::optional<PlanResult> DirectPlanClient::poll() { return std::exchange(result_, std::nullopt); }
+
+void DirectPlanClient::cancel() { result_.reset(); }
+
+PushRunResult runPushTask(const Catalog& catalog, const PushProblem& problem,
+                          std::vector<Case> cases, std::shared_ptr<const Map> map,
+                          const PushRunOptions& options,
+                          const std::function<void(const PushTask&)>& watch) {
+  ClosedLoop loop(catalog, problem.world, options.lab);
+  const PushPlanner planner(std::move(map), loop.simulator().robot(),
+                            modelsByName(loop.simulator()), options.planner);
+  WorkingCases working(std::move(cases), options);
+  const auto current_cases = [&working] { return working.all(); };
+  DirectPlanClient plans(planner, current_cases);
+
+  PushRunResult result;
+  PushTaskServices services;
+  services.plans = &plans;
+  services.checker = &planner;
+  services.cases = current_cases;
+  services.on_report = [&](const PushReport& report) {
+    result.reports.push_back(report);
+    working.learnFrom(report);
+  };
+  services.on_plan = [&](const PlanResult& plan) { result.planning_s += plan.planning_s; };
+
+  PushTaskGoal goal;
+  goal.object_id = problem.object_id;
+  goal.map_T_goal = problem.map_T_goal;
+  goal.time_limit_s = options.time_limit_s;
+  goal.adapt = options.adapt;
+  goal.seed = options.lab.simulator.seed;
+  PushTask task(goal, loop.simulator().robot(), services, options.task);
+  loop.run(task, options.time_limit_s + kSettleS, [&] {
+    if (watch) {
+      watch(task);
+    }
+  });
+  result.sim_time_s = loop.simulator().time();
+  loop.idle(kSettleS);
+
+  const Pose2 end = loop.simulator().trueObjectPose(problem.object_id);
+  result.status = task.status();
+  result.progress = task.progress();
+  result.explanation = task.describe();
+  result.position_error_m = distance(end, problem.map_T_goal);
+  result.yaw_error_rad = std::abs(yawDifference(problem.map_T_goal, end));
+  result.collisions = loop.collisions();
+  result.collision_names = loop.collisionNames();
+  result.success =
+      task.status() == PushTaskStatus::kSucceeded && goal.tolerance.isMet(problem.map_T_goal, end);
+  return result;
+}
+
+}  // namespace casepush

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace casepush {
+
+/// Exit codes of the `casepush` command.
+constexpr int kExitSuccess = 0;
+constexpr int kExitTaskFailed = 1;
+constexpr int kExitBadInput = 2;
+
+/// Options that every subcommand has.
+struct CommonOptions {
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+/// Each adds its subcommand; `run` is set to what the parsed command line asks for.
+/// A command returns its exit code, or throws InputError.
+using Run = std::function<int()>;
+void addLearnCommand(CLI::App& app, Run& run);
+void addPlanCommand(CLI::App& app, Run& run);
+void addPushCommand(CLI::App& app, Run& run);
+void addCasesCommand(CLI::App& app, Run& run);
+
+/// --seed and --json.
+void addCommonOptions(CLI::App& command, CommonOptions& options);
+
+/// Prints one JSON object on stdout if asked to, else its members as lines for a person.
+/// What differs between runs of the same seed is under "timing".
+void printResult(const nlohmann::ordered_json& result, bool json);
+
+/// Shows one line of progress on stderr, over the previous one on a terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool enabled);
+  ~ProgressLine();
+  void show(const std::string& text);
+
+ private:
+  bool enabled_;
+  bool terminal_;
+  bool open_ = false;
+  std::string last_;
+};
+
+/// "1 min 20 s" style duration.
+std::string durationText(double seconds);
+
+/// Wall clock seconds since construction.
+class Stopwatch {
+ public:
+  Stopwatch();
+  double seconds() const;
+
+ private:
+  double start_s_;
+};
+
+}  // namespace casepush

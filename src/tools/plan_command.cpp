@@ -1,0 +1,91 @@
+#include <memory>
+
+#include "command.h"
+#include "task_arguments.h"
+
+namespace casepush {
+namespace {
+
+struct PlanArguments {
+  TaskArguments task;
+  double deadline_s = 10.0;
+  bool paper = false;
+};
+
+PlanRequest makeRequest(const Task& task, const PlanArguments& arguments) {
+  PlanRequest request;
+  for (const ObjectPlacement& placement : task.problem.world.objects) {
+    const PlacedObject placed{placement.id, task.catalog.object(placement.model).name,
+                              placement.map_T_object};
+    if (placement.id == task.problem.object_id) {
+      request.object = placed;
+    } else {
+      request.obstacles.push_back(placed);
+    }
+  }
+  request.map_T_goal = task.problem.map_T_goal;
+  request.map_T_robot = task.problem.world.map_T_robot;
+  request.seed = arguments.task.common.seed;
+  request.deadline_s = arguments.deadline_s;
+  return request;
+}
+
+std::map<std::string, ObjectModel> loadModels(const Task& task) {
+  std::map<std::string, ObjectModel> models;
+  for (const ObjectPlacement& placement : task.problem.world.objects) {
+    ObjectModel model = task.catalog.object(placement.model);
+    models.emplace(model.name, model);
+  }
+  return models;
+}
+
+int plan(const PlanArguments& arguments) {
+  const Stopwatch watch;
+  const Task task = prepareTask(arguments.task);
+  PushPlannerOptions options;
+  if (arguments.paper) {
+    options.similarity = Similarity::kPaper;
+    options.goal_bias = 0.95;
+  }
+  const PushPlanner planner(task.map, task.catalog.robot(task.problem.world.robot),
+                            loadModels(task), options);
+  const PlanRequest request = makeRequest(task, arguments);
+  const PlanResult result = planner.plan(request, task.cases);
+  nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
+  for (const PlannedPush& push : result.plan.pushes) {
+    pushes.push_back({{"case", push.case_id},
+                      {"start", poseJson(push.map_T_start)},
+                      {"outcome", poseJson(push.map_outcome.mean)}});
+  }
+  const bool solved = result.status == PlanStatus::kSolved;
+  printResult({{"success", solved},
+               {"status", toString(result.status)},
+               {"explanation", result.explanation},
+               {"pushes", result.plan.pushes.size()},
+               {"plan_length_m", result.plan.lengthM()},
+               {"nodes", result.nodes},
+               {"collision_checks", result.collision_checks},
+               {"start", poseJson(request.object.map_T_object)},
+               {"goal", poseJson(request.map_T_goal)},
+               {"plan", pushes},
+               {"seed", arguments.task.common.seed},
+               {"timing", {{"wall_s", watch.seconds()}, {"planning_s", result.planning_s}}}},
+              arguments.task.common.json);
+  return solved ? kExitSuccess : kExitTaskFailed;
+}
+
+}  // namespace
+
+void addPlanCommand(CLI::App& app, Run& run) {
+  auto arguments = std::make_shared<PlanArguments>();
+  CLI::App* command = app.add_subcommand("plan", "Plan the pushes that bring an object to a goal");
+  addTaskOptions(*command, arguments->task);
+  command->add_option("--deadline", arguments->deadline_s, "Wall seconds for planning")
+      ->check(CLI::Range(0.001, 3600.0))
+      ->capture_default_str();
+  command->add_flag("--paper", arguments->paper,
+                    "Similarity of the paper's eq. 3 and its goal bias of 0.95");
+  command->callback([arguments, &run] { run = [arguments] { return plan(*arguments); }; });
+}
+
+}  // namespace casepush

@@ -1,0 +1,83 @@
+#include "task_arguments.h"
+
+#include <cmath>
+
+#include "casepush/cases/case_base.h"
+#include "casepush/common/input_error.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+Pose2 poseFrom(const std::vector<double>& numbers, const std::string& option,
+               const WorldModel& world) {
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) {
+      throw InputError(option, "must be three finite numbers: x_m y_m yaw_deg");
+    }
+  }
+  const Pose2 pose(numbers[0], numbers[1], numbers[2] * kDegree);
+  if (!world.contains(pose)) {
+    throw InputError(option, "(" + std::to_string(numbers[0]) + ", " + std::to_string(numbers[1]) +
+                                 ") lies outside of world " + world.name);
+  }
+  return pose;
+}
+
+}  // namespace
+
+void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
+  addCommonOptions(command, arguments.common);
+  command.add_option("--object", arguments.object, "Object by name or URDF file")->required();
+  command.add_option("--world", arguments.world, "World by name or YAML file")
+      ->capture_default_str();
+  command.add_option("--map", arguments.map,
+                     "OctoMap (.bt or .ot) that the planner uses; default: a survey of the world");
+  command.add_option("--case-base", arguments.case_base, "SQLite file with the object's cases")
+      ->required();
+  command.add_option("--start", arguments.start, "Object's start: x_m y_m yaw_deg in the map")
+      ->expected(3);
+  command
+      .add_option("--goal", arguments.goal,
+                  "Object's goal: x_m y_m yaw_deg in the map; default: a random valid start and "
+                  "goal from the seed")
+      ->expected(3);
+}
+
+Task prepareTask(const TaskArguments& arguments) {
+  Task task{Catalog::standard(), {}, {}, nullptr};
+  const std::string name = task.catalog.object(arguments.object).name;
+  const WorldModel world = task.catalog.world(arguments.world);
+  task.cases = CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name);
+  if (task.cases.empty()) {
+    throw InputError(arguments.case_base, "holds no case of " + name +
+                                              "; run casepush learn --object " + name +
+                                              " --case-base " + arguments.case_base);
+  }
+  if (arguments.goal.empty()) {
+    if (!arguments.start.empty()) {
+      throw InputError("--start", "needs --goal too");
+    }
+    task.problem = randomProblem(task.catalog, world, arguments.object, arguments.common.seed);
+  } else {
+    task.problem = problemFromWorld(task.catalog, world, arguments.object,
+                                    poseFrom(arguments.goal, "--goal", world));
+    if (!arguments.start.empty()) {
+      for (ObjectPlacement& placement : task.problem.world.objects) {
+        if (placement.id == task.problem.object_id) {
+          placement.map_T_object = poseFrom(arguments.start, "--start", world);
+        }
+      }
+    }
+  }
+  task.map = arguments.map.empty() ? surveyMap(world)
+                                   : std::make_shared<const Map>(Map::load(arguments.map));
+  return task;
+}
+
+nlohmann::ordered_json poseJson(const Pose2& pose) {
+  return {{"x_m", pose.x()}, {"y_m", pose.y()}, {"yaw_deg", pose.yaw() / kDegree}};
+}
+
+}  // namespace casepush

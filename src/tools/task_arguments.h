@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/lab/push_run.h"
+#include "command.h"
+
+namespace casepush {
+
+/// What `plan` and `push` have in common: object, world, map, cases and goal.
+struct TaskArguments {
+  CommonOptions common;
+  std::string object;
+  std::string world = "office";
+  std::string map;
+  std::string case_base;
+  std::vector<double> start;  ///< x_m y_m yaw_deg, or empty.
+  std::vector<double> goal;   ///< x_m y_m yaw_deg, or empty.
+};
+
+void addTaskOptions(CLI::App& command, TaskArguments& arguments);
+
+/// Everything loaded and checked.
+struct Task {
+  Catalog catalog;
+  PushProblem problem;
+  std::vector<Case> cases;
+  std::shared_ptr<const Map> map;
+};
+
+/// @throws InputError naming what cannot be used.
+Task prepareTask(const TaskArguments& arguments);
+
+/// {"x_m", "y_m", "yaw_deg"}.
+nlohmann::ordered_json poseJson(const Pose2& pose);
+
+}  // namespace casepush
