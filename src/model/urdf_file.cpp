@@ -1,0 +1,242 @@
+#include <console_bridge/console.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+
+#include "casepush/common/input_error.h"
+#include "casepush/model/mechanism.h"
+
+namespace casepush {
+namespace {
+
+/// Collects what urdfdom would print to stderr, for the length of its life.
+class ParserLog : public console_bridge::OutputHandler {
+ public:
+  ParserLog() : previous_(console_bridge::getOutputHandler()) {
+    console_bridge::useOutputHandler(this);
+  }
+  ~ParserLog() override { console_bridge::useOutputHandler(previous_); }
+  ParserLog(const ParserLog&) = delete;
+  ParserLog& operator=(const ParserLog&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) {
+      errors_ += (errors_.empty() ? "" : "; ") + text;
+    }
+  }
+
+  /// On one line.
+  std::string errors() const {
+    std::string line = errors_;
+    for (char& c : line) {
+      c = c == '\n' ? ' ' : c;
+    }
+    return line;
+  }
+
+ private:
+  console_bridge::OutputHandler* previous_;
+  std::string errors_;
+};
+
+std::string readFile(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (!std::filesystem::is_regular_file(path) || !(text << file.rdbuf())) {
+    throw InputError(path.string(), "cannot be read; is the path right, and is it a URDF file?");
+  }
+  return text.str();
+}
+
+urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path) {
+  const std::string text = readFile(path);
+  static std::mutex mutex;  // console_bridge has one output handler for the whole process
+  const std::lock_guard<std::mutex> lock(mutex);
+  const ParserLog log;
+  urdf::ModelInterfaceSharedPtr model;
+  std::string reason;
+  try {
+    model = urdf::parseURDF(text);
+    reason = log.errors();
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (!model || !reason.empty()) {
+    throw InputError(path.string(),
+                     "is not a valid URDF: " + (reason.empty() ? "no reason given" : reason));
+  }
+  return model;
+}
+
+Eigen::Isometry3d toIsometry(const urdf::Pose& pose) {
+  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
+  isometry.translation() << pose.position.x, pose.position.y, pose.position.z;
+  Eigen::Quaterniond rotation;
+  pose.rotation.getQuaternion(rotation.x(), rotation.y(), rotation.z(), rotation.w());
+  isometry.linear() = rotation.normalized().toRotationMatrix();
+  return isometry;
+}
+
+/// Turns the parsed tree into a Mechanism and checks it on the way.
+class MechanismBuilder {
+ public:
+  MechanismBuilder(const std::filesystem::path& file, const urdf::ModelInterface& model)
+      : file_(file.string()) {
+    mechanism_.name = model.getName();
+    addLink(*model.getRoot());
+    addChildren(*model.getRoot(), 0);
+  }
+
+  Mechanism take() { return std::move(mechanism_); }
+
+ private:
+  void addChildren(const urdf::Link& link, int index) {
+    for (const urdf::JointSharedPtr& child : link.child_joints) {
+      addJoint(*child, index);
+      const auto next = static_cast<int>(mechanism_.links.size());
+      for (const urdf::LinkSharedPtr& child_link : link.child_links) {
+        if (child_link->name == child->child_link_name) {
+          addLink(*child_link);
+          addChildren(*child_link, next);
+        }
+      }
+    }
+  }
+
+  void addLink(const urdf::Link& parsed) {
+    Link link;
+    link.name = parsed.name;
+    const std::string where = file_ + ": link '" + link.name + "'";
+    setInertia(parsed, where, &link);
+    for (const urdf::CollisionSharedPtr& collision : parsed.collision_array) {
+      PlacedShape shape{toShape(*collision->geometry, where), toIsometry(collision->origin),
+                        link.name};
+      requireFinite(shape.frame_T_shape.matrix().allFinite(), where + ": collision origin");
+      link.collision.push_back(std::move(shape));
+    }
+    if (parsed.visual && parsed.visual->material) {
+      const urdf::Color& colour = parsed.visual->material->color;
+      link.colour_rgba << colour.r, colour.g, colour.b, colour.a;
+    }
+    mechanism_.links.push_back(std::move(link));
+  }
+
+  void addJoint(const urdf::Joint& parsed, int parent) {
+    Joint joint;
+    joint.name = parsed.name;
+    const std::string where = file_ + ": joint '" + joint.name + "'";
+    if (parsed.type == urdf::Joint::CONTINUOUS) {
+      joint.type = JointType::kContinuous;
+    } else if (parsed.type != urdf::Joint::FIXED) {
+      throw InputError(where, "has an unsupported type; must be fixed or continuous");
+    }
+    joint.parent_link = parent;
+    joint.parent_T_joint = toIsometry(parsed.parent_to_joint_origin_transform);
+    requireFinite(joint.parent_T_joint.matrix().allFinite(), where + ": origin");
+    joint.axis << parsed.axis.x, parsed.axis.y, parsed.axis.z;
+    if (joint.type == JointType::kContinuous) {
+      if (!(joint.axis.norm() > 1e-6) || !joint.axis.allFinite()) {
+        throw InputError(where, "has no axis; must be a finite vector other than zero");
+      }
+      joint.axis.normalize();
+      joint.friction_nm = parsed.dynamics ? parsed.dynamics->friction : 0.0;
+      checkDynamics(parsed, where);
+    }
+    mechanism_.joints.push_back(std::move(joint));
+  }
+
+  static void checkDynamics(const urdf::Joint& joint, const std::string& where) {
+    if (!joint.dynamics) {
+      return;
+    }
+    if (!std::isfinite(joint.dynamics->friction) || joint.dynamics->friction < 0.0) {
+      throw InputError(where + ": dynamics friction", "must be finite and not negative [Nm]");
+    }
+    if (joint.dynamics->damping != 0.0) {
+      throw InputError(where + ": dynamics damping", "is not supported; must be 0, use friction");
+    }
+  }
+
+  static void setInertia(const urdf::Link& parsed, const std::string& where, Link* link) {
+    if (!parsed.inertial) {
+      throw InputError(where, "has no inertia; every link needs an <inertial> element");
+    }
+    const urdf::Inertial& inertial = *parsed.inertial;
+    link->mass_kg = inertial.mass;
+    if (!std::isfinite(link->mass_kg) || link->mass_kg <= 0.0) {
+      std::ostringstream text;
+      text << "has a mass of " << link->mass_kg << " kg; must be finite and above 0";
+      throw InputError(where, text.str());
+    }
+    link->link_T_inertial = toIsometry(inertial.origin);
+    requireFinite(link->link_T_inertial.matrix().allFinite(), where + ": inertial origin");
+    link->inertia_kgm2 << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy,
+        inertial.iyz, inertial.ixz, inertial.iyz, inertial.izz;
+    requireFinite(link->inertia_kgm2.allFinite(), where + ": inertia");
+    checkInertia(link->inertia_kgm2, where);
+  }
+
+  static void checkInertia(const Eigen::Matrix3d& inertia_kgm2, const std::string& where) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_kgm2,
+                                                                Eigen::EigenvaluesOnly);
+    const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
+    std::ostringstream values;
+    values << "(principal moments " << moments.transpose() << " kg m^2)";
+    if (!(moments(0) > 0.0)) {
+      throw InputError(where, "has an inertia that is not positive definite " + values.str());
+    }
+    if (moments(0) + moments(1) < moments(2) * (1.0 - 1e-6)) {
+      throw InputError(where,
+                       "has an inertia that no body can have: the largest principal moment "
+                       "exceeds the sum of the others " +
+                           values.str());
+    }
+  }
+
+  static Shape toShape(const urdf::Geometry& geometry, const std::string& where) {
+    Shape shape;
+    Eigen::Vector3d extents = Eigen::Vector3d::Ones();
+    if (geometry.type == urdf::Geometry::BOX) {
+      const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
+      extents << size.x, size.y, size.z;
+      shape = Box{extents};
+    } else if (geometry.type == urdf::Geometry::CYLINDER) {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+      extents << cylinder.radius, cylinder.length, 1.0;
+      shape = Cylinder{cylinder.radius, cylinder.length};
+    } else if (geometry.type == urdf::Geometry::SPHERE) {
+      const double radius_m = static_cast<const urdf::Sphere&>(geometry).radius;
+      extents.x() = radius_m;
+      shape = Sphere{radius_m};
+    } else {
+      throw InputError(where, "has a mesh for collision; must be boxes, cylinders or spheres");
+    }
+    if (!extents.allFinite() || extents.minCoeff() <= 0.0) {
+      throw InputError(where + ": collision", "has a size that is not finite and above 0 m");
+    }
+    return shape;
+  }
+
+  static void requireFinite(bool finite, const std::string& where) {
+    if (!finite) {
+      throw InputError(where, "is not finite");
+    }
+  }
+
+  std::string file_;
+  Mechanism mechanism_;
+};
+
+}  // namespace
+
+Mechanism loadMechanism(const std::filesystem::path& urdf_file) {
+  const urdf::ModelInterfaceSharedPtr model = parse(urdf_file);
+  return MechanismBuilder(urdf_file, *model).take();
+}
+
+}  // namespace casepush

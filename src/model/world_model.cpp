@@ -1,0 +1,129 @@
+#include "casepush/model/world_model.h"
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "casepush/common/input_error.h"
+#include "yaml_pose.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kLargestCoordinate_m = 1000.0;
+
+/// Reads one world; every name in it (boxes, objects, the robot) is taken once.
+class WorldReader {
+ public:
+  explicit WorldReader(const std::filesystem::path& file) : reader_(YamlReader::fromFile(file)) {
+    world_.name = file.stem().string();
+    names_.insert("robot");
+  }
+
+  WorldModel read() {
+    readBounds(reader_.child("bounds"));
+    if (std::optional<YamlReader> floor = reader_.optionalChild("floor")) {
+      world_.floor.friction = floor->number("friction", 0.01, 2.0);
+      world_.floor.rolling_lever_arm_m = floor->number("rolling_lever_arm_m", 0.0, 0.05);
+      floor->finish();
+    }
+    for (YamlReader& entry : reader_.children("boxes")) {
+      readBox(entry);
+    }
+    for (YamlReader& entry : reader_.children("objects")) {
+      readObject(entry);
+    }
+    readRobot(reader_.child("robot"));
+    if (std::optional<YamlReader> goal = reader_.optionalChild("goal")) {
+      world_.goal = readPoseInside(*goal);
+      goal->finish();
+    }
+    reader_.finish();
+    return std::move(world_);
+  }
+
+ private:
+  void readBounds(YamlReader reader) {
+    const std::vector<double> min_m = reader.numbers("min", 2);
+    const std::vector<double> max_m = reader.numbers("max", 2);
+    reader.finish();
+    for (int i = 0; i < 2; ++i) {
+      if (max_m[i] - min_m[i] < 0.5 || std::abs(min_m[i]) > kLargestCoordinate_m ||
+          std::abs(max_m[i]) > kLargestCoordinate_m) {
+        throw InputError(reader.where(),
+                         "max must exceed min by 0.5 m, both within 1000 m of the origin");
+      }
+      world_.min_m(i) = min_m[i];
+      world_.max_m(i) = max_m[i];
+    }
+  }
+
+  void readBox(YamlReader& reader) {
+    StaticBox box;
+    box.name = takeName(reader, "name");
+    const std::vector<double> size_m = reader.numbers("size_m", 3);
+    const std::vector<double> xyz_m = reader.numbers("xyz", 3);
+    box.box.size_m << size_m[0], size_m[1], size_m[2];
+    if (box.box.size_m.minCoeff() <= 0.0 || box.box.size_m.maxCoeff() > kLargestCoordinate_m) {
+      throw InputError(reader.where("size_m"), "must be above 0 and at most 1000 m");
+    }
+    box.map_T_box.translation() << xyz_m[0], xyz_m[1], xyz_m[2];
+    const double yaw_rad = reader.has("yaw_deg") ? readAngle(reader, "yaw_deg", -360, 360) : 0.0;
+    box.map_T_box.rotate(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
+    reader.finish();
+    world_.boxes.push_back(std::move(box));
+  }
+
+  void readObject(YamlReader& reader) {
+    ObjectPlacement object;
+    object.id = takeName(reader, "id");
+    object.model = reader.text("model");
+    object.map_T_object = readPoseInside(reader);
+    object.tag_offset = reader.integer("tag_offset", 0, 586, 0);
+    reader.finish();
+    world_.objects.push_back(std::move(object));
+  }
+
+  void readRobot(YamlReader reader) {
+    world_.robot = reader.text("model");
+    world_.map_T_robot = readPoseInside(reader);
+    reader.finish();
+  }
+
+  Pose2 readPoseInside(YamlReader& reader) {
+    const Pose2 pose = readPose2(reader);
+    if (!world_.contains(pose)) {
+      std::ostringstream text;
+      text << "(" << pose.x() << ", " << pose.y() << ") is outside of the world; must be within ("
+           << world_.min_m.x() << ", " << world_.min_m.y() << ") to (" << world_.max_m.x() << ", "
+           << world_.max_m.y() << ")";
+      throw InputError(reader.where("xy"), text.str());
+    }
+    return pose;
+  }
+
+  std::string takeName(YamlReader& reader, const std::string& key) {
+    std::string name = reader.text(key);
+    if (!names_.insert(name).second) {
+      throw InputError(reader.where(key), "'" + name + "' is taken; names must differ");
+    }
+    return name;
+  }
+
+  YamlReader reader_;
+  WorldModel world_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+bool WorldModel::contains(const Pose2& map_T_x) const {
+  return map_T_x.isFinite() && map_T_x.x() >= min_m.x() && map_T_x.x() <= max_m.x() &&
+         map_T_x.y() >= min_m.y() && map_T_x.y() <= max_m.y();
+}
+
+WorldModel loadWorldModel(const std::filesystem::path& yaml_file) {
+  return WorldReader(yaml_file).read();
+}
+
+}  // namespace casepush

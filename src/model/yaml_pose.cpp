@@ -1,0 +1,34 @@
+#include "yaml_pose.h"
+
+#include <cmath>
+#include <vector>
+
+namespace casepush {
+namespace {
+
+constexpr double kRadPerDeg = M_PI / 180.0;
+
+}  // namespace
+
+double readAngle(YamlReader& reader, const std::string& key, double low_deg, double high_deg) {
+  return kRadPerDeg * reader.number(key, low_deg, high_deg);
+}
+
+Pose2 readPose2(YamlReader& reader) {
+  const std::vector<double> xy_m = reader.numbers("xy", 2);
+  return {xy_m[0], xy_m[1], readAngle(reader, "yaw_deg", -360.0, 360.0)};
+}
+
+Eigen::Isometry3d readPose3(YamlReader& reader) {
+  const std::vector<double> xyz_m = reader.numbers("xyz", 3);
+  const std::vector<double> rpy_deg = reader.numbers("rpy_deg", 3);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() << xyz_m[0], xyz_m[1], xyz_m[2];
+  pose.linear() = (Eigen::AngleAxisd(kRadPerDeg * rpy_deg[2], Eigen::Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(kRadPerDeg * rpy_deg[1], Eigen::Vector3d::UnitY()) *
+                   Eigen::AngleAxisd(kRadPerDeg * rpy_deg[0], Eigen::Vector3d::UnitX()))
+                      .toRotationMatrix();
+  return pose;
+}
+
+}  // namespace casepush
