@@ -1,12 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "casepush/model/world_model.h"
 
@@ -28,7 +27,8 @@ class Map {
   /// Reads a .bt or .ot file. @throws InputError if missing, truncated, empty or not an OcTree.
   static Map load(const std::filesystem::path& file);
 
-  /// From OctoMap's binary stream (as in a message). @throws InputError.
+  /// From OctoMap's binary stream (as in a message); no bytes are an empty map.
+  /// @throws InputError if they are truncated or damaged.
   static Map fromBinary(double resolution_m, const std::vector<std::int8_t>& data);
   std::vector<std::int8_t> toBinary() const;
 
@@ -36,9 +36,11 @@ class Map {
   void save(const std::filesystem::path& file) const;
 
   /// Marks points as occupied, without free space in between (a survey, or a model of the room).
+  /// @throws InputError if a point is not finite or too far away; the map is then unchanged.
   void addSurvey(const std::vector<Eigen::Vector3f>& map_points);
 
-  /// Casts rays from a sensor: free along them, occupied at their ends.
+  /// Casts rays from a sensor: free along them, occupied at their ends. Points that are not finite
+  /// (no return) are ignored. @throws InputError for a bad origin or range.
   void addScan(const Eigen::Vector3f& map_origin, const std::vector<Eigen::Vector3f>& map_points,
                double max_range_m);
 
@@ -63,7 +65,13 @@ class Map {
   std::unique_ptr<octomap::OcTree> tree_;
 };
 
-/// Points that fill a world's boxes densely enough for the given resolution, for Map::addSurvey.
+/// Points from which Map::addSurvey makes a map, of the same resolution, of all that stands in a
+/// world.
+///
+/// They are the centres of all cells into which a box reaches by more than 1 mm, the inside
+/// included, so that what does not collide with the map does not collide with the boxes. The
+/// floor's rim, one layer of cells below z = 0, makes the world's bounds the map's.
+/// @throws InputError unless resolution is in [0.01, 0.5] m.
 std::vector<Eigen::Vector3f> surveyPoints(const WorldModel& world, double resolution_m);
 
 }  // namespace casepush

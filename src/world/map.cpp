@@ -1,0 +1,199 @@
+#include "casepush/world/map.h"
+
+#include <octomap/OcTree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "casepush/common/check.h"
+#include "casepush/common/input_error.h"
+#include "map_stream.h"
+
+namespace casepush {
+namespace {
+
+std::string readWhole(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw InputError(file.string(), "there is no such map file");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream content;
+  if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
+  if (stream.bad() || !stream.is_open()) throw InputError(file.string(), "cannot be read");
+  return content.str();
+}
+
+/// Compact form of a map: occupied or free, children alike merged.
+octomap::OcTree compact(const octomap::OcTree& tree) {
+  octomap::OcTree copy(tree);
+  if (copy.size() > 0) {
+    copy.toMaxLikelihood();
+    copy.prune();
+  }
+  return copy;
+}
+
+octomap::point3d toOctomap(const Eigen::Vector3f& point) {
+  return {point.x(), point.y(), point.z()};
+}
+
+std::string text(const Eigen::Vector3f& point) {
+  std::ostringstream stream;
+  stream << "(" << point.x() << ", " << point.y() << ", " << point.z() << ")";
+  return stream.str();
+}
+
+/// Lowest corner and size of the leaf.
+template <typename Iterator>
+std::pair<Eigen::Vector3d, double> leafCorner(const Iterator& leaf, double resolution_m) {
+  constexpr int kKeyOfZero = 32768;
+  const octomap::OcTreeKey key = leaf.getIndexKey();
+  const Eigen::Vector3d corner(int{key[0]} - kKeyOfZero, int{key[1]} - kKeyOfZero,
+                               int{key[2]} - kKeyOfZero);
+  return {corner * resolution_m, (1 << (16 - static_cast<int>(leaf.getDepth()))) * resolution_m};
+}
+
+}  // namespace
+
+Map::Map(double resolution_m) {
+  checkResolution(resolution_m, "map");
+  tree_ = std::make_unique<octomap::OcTree>(resolution_m);
+}
+
+Map::Map(std::unique_ptr<octomap::OcTree> tree) : tree_(std::move(tree)) {}
+Map::~Map() = default;
+Map::Map(Map&&) noexcept = default;
+Map& Map::operator=(Map&&) noexcept = default;
+
+Map Map::load(const std::filesystem::path& file) {
+  const std::string where = file.string();
+  std::istringstream stream(readWhole(file));
+  const MapHeader header = readMapHeader(stream, where);
+  Map map(header.resolution_m);
+  if (header.nodes == 0) throw InputError(where, "holds an empty map, must hold occupied space");
+  const auto data = stream.tellg();
+  const unsigned long nodes = countMapNodes(stream, header.binary, where);
+  if (nodes != header.nodes) {
+    throw InputError(where, "is damaged: it holds " + std::to_string(nodes) +
+                                " nodes, its header says " + std::to_string(header.nodes));
+  }
+  stream.seekg(data);
+  if (header.binary) {
+    map.tree_->readBinaryData(stream);
+  } else {
+    map.tree_->readData(stream);
+  }
+  CASEPUSH_CHECK(map.tree_->calcNumNodes() == nodes, map.tree_->calcNumNodes() << " " << nodes);
+  return map;
+}
+
+Map Map::fromBinary(double resolution_m, const std::vector<std::int8_t>& data) {
+  const std::string where = "octomap message";
+  checkResolution(resolution_m, where);
+  Map map(resolution_m);
+  if (data.empty()) return map;
+  std::istringstream stream(std::string(data.begin(), data.end()));
+  countMapNodes(stream, true, where);
+  if (static_cast<std::size_t>(stream.tellg()) != data.size()) {
+    throw InputError(where, "is damaged: it has " + std::to_string(data.size()) +
+                                " bytes, its octree ends after " + std::to_string(stream.tellg()));
+  }
+  stream.seekg(0);
+  map.tree_->readBinaryData(stream);
+  return map;
+}
+
+std::vector<std::int8_t> Map::toBinary() const {
+  if (empty()) return {};
+  std::ostringstream stream;
+  compact(*tree_).writeBinaryData(stream);
+  const std::string bytes = stream.str();
+  return {bytes.begin(), bytes.end()};
+}
+
+void Map::save(const std::filesystem::path& file) const {
+  // Written beside and renamed, so that a failure leaves an older file as it was.
+  std::filesystem::path draft = file;
+  draft += ".part";
+  std::ofstream stream(draft, std::ios::binary);
+  const bool good = stream && compact(*tree_).writeBinaryConst(stream) && stream.flush();
+  stream.close();
+  std::error_code error;
+  if (good) std::filesystem::rename(draft, file, error);
+  if (good && !error) return;
+  std::error_code ignored;
+  std::filesystem::remove(draft, ignored);
+  throw InputError(file.string(), "the map cannot be written there");
+}
+
+void Map::addSurvey(const std::vector<Eigen::Vector3f>& map_points) {
+  for (const auto& point : map_points) {
+    octomap::OcTreeKey key;
+    if (!point.allFinite() || !tree_->coordToKeyChecked(toOctomap(point), key)) {
+      throw InputError("map survey", "point " + text(point) + " is not finite or too far away");
+    }
+  }
+  for (const auto& point : map_points) {
+    tree_->setNodeValue(toOctomap(point), tree_->getClampingThresMaxLog(), true);
+  }
+  if (map_points.empty()) return;
+  tree_->updateInnerOccupancy();
+  tree_->prune();
+}
+
+void Map::addScan(const Eigen::Vector3f& map_origin, const std::vector<Eigen::Vector3f>& map_points,
+                  double max_range_m) {
+  octomap::OcTreeKey key;
+  if (!map_origin.allFinite() || !tree_->coordToKeyChecked(toOctomap(map_origin), key)) {
+    throw InputError("map scan", "origin " + text(map_origin) + " is not finite or too far away");
+  }
+  if (!(max_range_m > 0.0)) {
+    throw InputError("map scan",
+                     "range is " + std::to_string(max_range_m) + " m, must be positive");
+  }
+  octomap::Pointcloud cloud;
+  for (const auto& point : map_points) {
+    if (point.allFinite()) cloud.push_back(toOctomap(point));
+  }
+  tree_->insertPointCloud(cloud, toOctomap(map_origin), max_range_m, false, true);
+}
+
+double Map::resolution() const { return tree_->getResolution(); }
+
+bool Map::empty() const { return tree_->size() == 0; }
+
+std::vector<Map::Voxel> Map::occupied() const {
+  std::vector<Voxel> voxels;
+  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
+    if (!tree_->isNodeOccupied(*leaf)) continue;
+    const auto [corner, size] = leafCorner(leaf, resolution());
+    const Eigen::Vector3d centre = corner.array() + size / 2.0;
+    voxels.push_back({centre.cast<float>(), static_cast<float>(size)});
+  }
+  return voxels;
+}
+
+Eigen::Vector3d Map::min() const {
+  CASEPUSH_CHECK(!empty(), "an empty map has no bounds");
+  Eigen::Vector3d result = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
+    result = result.cwiseMin(leafCorner(leaf, resolution()).first);
+  }
+  return result;
+}
+
+Eigen::Vector3d Map::max() const {
+  CASEPUSH_CHECK(!empty(), "an empty map has no bounds");
+  Eigen::Vector3d result = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
+  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
+    const auto [corner, size] = leafCorner(leaf, resolution());
+    result = result.cwiseMax((corner.array() + size).matrix());
+  }
+  return result;
+}
+
+}  // namespace casepush
