@@ -3,9 +3,9 @@
 add_message_files(FILES
   AprilTagDetection.msg
   AprilTagDetectionArray.msg
+  BodyContact.msg
+  BodyContactArray.msg
   BodyPose.msg
-  Contact.msg
-  ContactArray.msg
   ExecutedPush.msg
   ExecutorState.msg
   ObjectPose.msg

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/cases/outcome_statistics.h"
+#include "casepush/execution/exploration.h"
+#include "casepush/execution/push_task.h"
+#include "casepush/model/catalog.h"
+#include "casepush/perception/pose_tracker.h"
+#include "casepush/planning/push_planner.h"
+#include "casepush/ros/parameter_reader.h"
+#include "casepush/sim/simulator.h"
+
+/// Parameters of each node. The loaders throw one InputError that lists every violation.
+namespace casepush {
+
+/// What the nodes other than the simulator know of a place beforehand: which objects there are and
+/// how they look, never where they are.
+struct Furnishing {
+  std::vector<TrackedObject> instances;
+  std::map<std::string, ObjectModel> models;  ///< By name.
+  RobotModel robot;
+
+  /// nullptr if there is no such instance.
+  const TrackedObject* instance(const std::string& id) const;
+};
+
+struct SimNodeParameters {
+  WorldModel world;
+  RobotModel robot;
+  std::map<std::string, ObjectModel> models;  ///< By the names that the world uses.
+  SimulatorOptions simulator;
+  double real_time_factor = 1.0;      ///< 0: as fast as the nodes keep up.
+  double max_sim_time_s = 0.0;        ///< Ends the node; 0: never.
+  double survey_resolution_m = 0.05;  ///< Spacing of `points`.
+};
+
+struct PerceptionNodeParameters {
+  Furnishing furnishing;
+  PoseTrackerOptions tracker;
+  bool publish_camera_frames = false;  ///< Static TF of the robot's cameras, if nobody else does.
+};
+
+struct PlannerNodeParameters {
+  Furnishing furnishing;
+  PushPlannerOptions planner;
+  std::string map_file;  ///< .bt or .ot; empty: wait for the topic `points`.
+  double map_resolution_m = 0.05;
+};
+
+struct ExecutorNodeParameters {
+  Furnishing furnishing;
+  PushPlannerOptions planner;  ///< For approach paths and for judging the rest of a plan.
+  PushTaskOptions task;
+  double watchdog_s = 0.15;      ///< Wall time without a tick after which zero is commanded.
+  double stale_objects_s = 0.2;  ///< Age of `objects` above which zero is commanded.
+  double dead_clock_s = 5.0;     ///< Wall time without a tick after which a goal is aborted.
+};
+
+enum class ResetMode { kAuto, kTeleport, kDrive };
+
+struct LearnerNodeParameters {
+  Furnishing furnishing;
+  std::string case_base = "cases.db";
+  ExplorationOptions exploration;  ///< cases, practices and seed come with each goal.
+  CovarianceFloor floor;
+  double adaptation_k = 20.0;  ///< Paper eq. 7: the number of initial practices.
+  ResetMode reset = ResetMode::kAuto;
+  std::optional<Pose2> home;  ///< Where the object starts each push; none: the freest place.
+};
+
+struct DemoNodeParameters {
+  WorldModel world;
+  std::string object_id;
+  Pose2 map_T_goal;
+  std::uint64_t seed = 1;
+  int cases = 14;
+  int practices = 20;
+  std::string results = ".";
+  double time_limit_s = 1800.0;  ///< Of the push task, by the ROS clock.
+};
+
+SimNodeParameters loadSimNodeParameters(ParameterReader reader, const Catalog& catalog);
+PerceptionNodeParameters loadPerceptionNodeParameters(ParameterReader reader,
+                                                      const Catalog& catalog);
+PlannerNodeParameters loadPlannerNodeParameters(ParameterReader reader, const Catalog& catalog);
+ExecutorNodeParameters loadExecutorNodeParameters(ParameterReader reader, const Catalog& catalog);
+LearnerNodeParameters loadLearnerNodeParameters(ParameterReader reader, const Catalog& catalog);
+DemoNodeParameters loadDemoNodeParameters(ParameterReader reader, const Catalog& catalog);
+
+}  // namespace casepush

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <casepush/AprilTagDetectionArray.h>
+#include <message_filters/subscriber.h>
+#include <ros/ros.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/message_filter.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <memory>
+
+#include "casepush/perception/pose_tracker.h"
+#include "casepush/ros/diagnostics.h"
+#include "casepush/ros/node_parameters.h"
+
+namespace casepush {
+
+/// Turns tag detections into tracked poses: looks up where the camera was, updates the tracker and
+/// publishes `objects` after each image, and at 10 Hz if no images come.
+class PerceptionNode {
+ public:
+  /// @throws InputError from the tracker.
+  PerceptionNode(PerceptionNodeParameters parameters, ros::NodeHandle handle);
+
+ private:
+  using TagFilter = tf2_ros::MessageFilter<AprilTagDetectionArray>;
+
+  void onTags(const AprilTagDetectionArray& message);
+  void forgetOnJumpBack(double now_s);
+  void publish(double now_s);
+  void publishMarkers(const std::vector<ObjectState>& states, double now_s);
+  void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  PerceptionNodeParameters parameters_;
+  ros::NodeHandle handle_;
+  PoseTracker tracker_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  ros::Publisher objects_;
+  ros::Publisher object_markers_;
+  ros::Publisher robot_markers_;
+  message_filters::Subscriber<AprilTagDetectionArray> tags_;
+  TagFilter filter_;
+  ros::Timer timer_;
+  double last_published_s_ = 0.0;
+  double last_markers_s_ = -1e9;
+  int frames_ = 0;
+  int bad_frames_ = 0;
+  Diagnostics diagnostics_;  ///< Last: its timer uses the members above.
+};
+
+}  // namespace casepush

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <casepush/Reset.h>
+#include <casepush/SetPoses.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <chrono>
+
+#include "casepush/ros/diagnostics.h"
+#include "casepush/ros/node_parameters.h"
+#include "casepush/sim/simulator.h"
+
+namespace casepush {
+
+/// Static transforms base_link -> optical frame of each camera.
+std::vector<geometry_msgs::TransformStamped> cameraTransforms(const RobotModel& robot);
+
+/// The bundled simulator behind the interface of a robot: /clock, odom, TF, tag detections.
+///
+/// Everything happens in one thread: a control period of simulation, then callbacks. With
+/// real_time_factor 0 the next period begins as soon as a command has come, or when none came
+/// within a while; so a controller that commands once per period stays in step with the world.
+class SimNode {
+ public:
+  /// @throws InputError from the simulator.
+  SimNode(SimNodeParameters parameters, ros::NodeHandle handle);
+
+  /// Runs until ROS shuts down or max_sim_time_s is over.
+  void run();
+
+ private:
+  using SteadyClock = std::chrono::steady_clock;
+
+  void advance();
+  void publishMotion();
+  void publishSensors();
+  void publishTruth();
+  void publishSurvey();
+  void waitForNodes();
+  bool isCommanded() const;
+  void restartPacing();
+
+  void onCommand(const geometry_msgs::Twist& message);
+  bool onReset(Reset::Request& request, Reset::Response& response);
+  bool onSetPoses(SetPoses::Request& request, SetPoses::Response& response);
+  void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  SimNodeParameters parameters_;
+  Simulator simulator_;
+  ros::NodeHandle handle_;
+  ros::Publisher clock_;
+  ros::Publisher odometry_;
+  ros::Publisher tags_;
+  ros::Publisher true_objects_;
+  ros::Publisher contacts_;
+  ros::Publisher points_;
+  ros::Subscriber command_;
+  ros::ServiceServer reset_;
+  ros::ServiceServer set_poses_;
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+
+  double next_period_s_ = 0.0;  ///< Simulated time at which the current control period ends.
+  int period_ = 0;
+  bool command_arrived_ = false;
+  double last_command_s_ = -1e9;
+  int refused_commands_ = 0;
+  SteadyClock::time_point pacing_start_;
+  double pacing_start_s_ = 0.0;
+
+  SteadyClock::time_point diagnosed_;
+  double diagnosed_s_ = 0.0;
+  Diagnostics diagnostics_;  ///< Last: its timer uses the members above.
+};
+
+}  // namespace casepush

@@ -1,0 +1,24 @@
+#include "casepush/ros/node_main.h"
+
+#include <ros/ros.h>
+
+#include <cstdio>
+
+#include "casepush/common/input_error.h"
+
+namespace casepush {
+
+int runNode(int argc, char** argv, const char* name, const std::function<int()>& body) {
+  constexpr int kBadInput = 2;
+  try {
+    ros::init(argc, argv, name);
+    return body();
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+  } catch (const ros::Exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+  }
+  return kBadInput;
+}
+
+}  // namespace casepush

@@ -1,0 +1,198 @@
+#include "casepush/ros/planner_node.h"
+
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "casepush/common/input_error.h"
+#include "casepush/ros/conversions.h"
+#include "casepush/ros/markers.h"
+#include "casepush/ros/names.h"
+#include "casepush/ros/push_conversions.h"
+#include "casepush/ros/transforms.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kFeedbackPeriodS = 0.2;
+
+PlanResult invalid(const std::string& explanation) {
+  PlanResult result;
+  result.status = PlanStatus::kInvalidRequest;
+  result.explanation = explanation;
+  return result;
+}
+
+}  // namespace
+
+PlannerNode::PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handle)
+    : parameters_(std::move(parameters)),
+      handle_(handle),
+      listener_(buffer_),
+      server_(
+          handle, names::kPlanPushAction,
+          [this](const PlanPushGoalConstPtr& goal) { onGoal(goal); }, false),
+      diagnostics_(handle, "planner", [this](auto& status) { reportDiagnostics(status); }) {
+  octomap_ = handle_.advertise<Octomap>(names::kOctomap.name, names::kOctomap.queue_size, true);
+  map_markers_ =
+      handle_.advertise<MarkerArray>(names::kMapMarkers.name, names::kMapMarkers.queue_size, true);
+  plan_ = handle_.advertise<Plan>(names::kPlan.name, names::kPlan.queue_size, true);
+  plan_markers_ = handle_.advertise<MarkerArray>(names::kPlanMarkers.name,
+                                                 names::kPlanMarkers.queue_size, true);
+  tree_markers_ = handle_.advertise<MarkerArray>(names::kTreeMarkers.name,
+                                                 names::kTreeMarkers.queue_size, true);
+  cases_subscriber_ =
+      handle_.subscribe(names::kCases.name, names::kCases.queue_size, &PlannerNode::onCases, this);
+  objects_subscriber_ = handle_.subscribe(names::kObjects.name, 1, &PlannerNode::onObjects, this,
+                                          ros::TransportHints().tcpNoDelay());
+  if (parameters_.map_file.empty()) {
+    points_subscriber_ = handle_.subscribe(names::kPoints.name, names::kPoints.queue_size,
+                                           &PlannerNode::onPoints, this);
+  } else {
+    setMap(Map::load(parameters_.map_file));
+  }
+  server_.start();
+}
+
+void PlannerNode::onPoints(const sensor_msgs::PointCloud2& message) {
+  try {
+    if (message.header.frame_id != names::kMapFrame) {
+      throw InputError("points", "are in frame '" + message.header.frame_id + "', must be in map");
+    }
+    Map map(parameters_.map_resolution_m);
+    map.addSurvey(fromMessage(message));
+    setMap(std::move(map));
+  } catch (const InputError& error) {
+    ROS_ERROR("no map: %s", error.what());
+  }
+}
+
+void PlannerNode::setMap(Map map) {
+  const auto shared = std::make_shared<const Map>(std::move(map));
+  const auto planner = std::make_shared<const PushPlanner>(
+      shared, parameters_.furnishing.robot, parameters_.furnishing.models, parameters_.planner);
+  octomap_.publish(toMessage(*shared, ros::Time::now().toSec()));
+  map_markers_.publish(mapMarkers(*shared));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  planner_ = planner;
+}
+
+void PlannerNode::onCases(const PushCaseArray& message) {
+  try {
+    std::vector<Case> cases = fromMessage(message);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    cases_ = std::move(cases);
+  } catch (const InputError& error) {
+    ROS_ERROR("cases ignored: %s", error.what());
+  }
+}
+
+void PlannerNode::onObjects(const PushableObjectArray& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  objects_ = message;
+}
+
+PlanRequest PlannerNode::request(const PlanPushGoal& goal) {
+  PlanPushGoal complete = goal;
+  complete.goal.pose = toPoseMessage(poseInMap(buffer_, goal.goal));
+  complete.goal.header.frame_id = names::kMapFrame;
+  if (!goal.state_given) {
+    complete.objects.clear();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const ObjectState& state : fromMessage(objects_)) {
+      complete.objects.push_back(
+          toMessage(PlacedObject{state.id, state.model, state.map_T_object}));
+    }
+    complete.robot = toMessage(robotPose(buffer_).map_T_robot);
+  }
+  return fromMessage(complete);
+}
+
+PlanResult PlannerNode::plan(const PlanPushGoal& goal) {
+  std::shared_ptr<const PushPlanner> planner;
+  std::vector<Case> cases;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    planner = planner_;
+    cases = cases_;
+  }
+  if (planner == nullptr) {
+    return invalid("there is no map yet (topic points, or parameter map_file)");
+  }
+  const PlanRequest complete = request(goal);
+  cases.erase(std::remove_if(
+                  cases.begin(), cases.end(),
+                  [&complete](const Case& each) { return each.object != complete.object.model; }),
+              cases.end());
+  const auto start = std::chrono::steady_clock::now();
+  double next_feedback_s = 0.0;
+  const auto stop = [&] {
+    const double elapsed_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (elapsed_s >= next_feedback_s) {
+      PlanPushFeedback feedback;
+      feedback.elapsed = elapsed_s;
+      server_.publishFeedback(feedback);
+      next_feedback_s = elapsed_s + kFeedbackPeriodS;
+    }
+    return server_.isPreemptRequested() || !ros::ok();
+  };
+  PlanResult result = planner->plan(complete, cases, stop);
+  show(result, cases);
+  return result;
+}
+
+void PlannerNode::onGoal(const PlanPushGoalConstPtr& goal) {
+  PlanResult result;
+  try {
+    result = plan(*goal);
+  } catch (const InputError& error) {
+    result = invalid(error.what());
+  } catch (const tf2::TransformException& error) {
+    result = invalid(error.what());
+  }
+  ROS_INFO("plan for %s: %s; %s", goal->object_id.c_str(), toString(result.status),
+           result.explanation.c_str());
+  const PlanPushResult message = toMessage(result, ros::Time::now().toSec());
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_result_ = std::move(result);
+  }
+  if (message.status == PlanPushResult::SOLVED) {
+    server_.setSucceeded(message, message.explanation);
+  } else if (message.status == PlanPushResult::CANCELLED) {
+    server_.setPreempted(message, message.explanation);
+  } else {
+    server_.setAborted(message, message.explanation);
+  }
+}
+
+void PlannerNode::show(const PlanResult& result, const std::vector<Case>& cases) {
+  tree_markers_.publish(treeMarkers(result.tree));
+  if (result.status != PlanStatus::kSolved) {
+    return;
+  }
+  Plan message = toMessage(result.plan, ros::Time::now().toSec());
+  message.number = ++plan_count_;
+  plan_.publish(message);
+  plan_markers_.publish(planMarkers(result.plan, cases));
+}
+
+void PlannerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (planner_ == nullptr) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no map yet");
+  } else if (cases_.empty()) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no cases yet");
+  } else {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   server_.isActive() ? "planning" : "ready");
+  }
+  status.add("cases", cases_.size());
+  status.add("last plan", last_result_.explanation);
+  status.add("last planning time [s]", last_result_.planning_s);
+}
+
+}  // namespace casepush
