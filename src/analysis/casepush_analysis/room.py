@@ -45,13 +45,14 @@ def _rasterise(xyz, cell_m):
     xyz = xyz[xyz[:, 2] > FLOOR_M]
     if len(xyz) == 0:
         return None
-    # Half a cell of slack keeps voxel centres clear of cell borders.
-    low = np.floor(xyz[:, :2].min(axis=0) / cell_m)
-    index = np.floor(xyz[:, :2] / cell_m + 1e-6).astype(int) - low.astype(int)
+    # Points of single precision that lie on the border of two cells belong to the upper one.
+    index = np.floor(xyz[:, :2] / cell_m + 1e-3).astype(int)
+    low = index.min(axis=0)
+    index -= low
     height = np.full((index[:, 1].max() + 1, index[:, 0].max() + 1), -np.inf)
     np.maximum.at(height, (index[:, 1], index[:, 0]), xyz[:, 2])
     height[np.isinf(height)] = np.nan
-    return RoomMap(low[0] * cell_m, low[1] * cell_m, cell_m, height)
+    return RoomMap(float(low[0] * cell_m), float(low[1] * cell_m), cell_m, height)
 
 
 def _spread(key, size):
