@@ -58,7 +58,8 @@ Pose2 expSe2(const Eigen::Vector3d& tangent) {
   double cosc = 0.5 * w;
   if (std::abs(w) >= kSmallAngle) {
     sinc = std::sin(w) / w;
-    cosc = (1.0 - std::cos(w)) / w;
+    const double sin_half = std::sin(0.5 * w);
+    cosc = 2.0 * sin_half * sin_half / w;  // (1 - cos w) / w without the cancellation
   }
   return {sinc * tangent.x() - cosc * tangent.y(), cosc * tangent.x() + sinc * tangent.y(), w};
 }

@@ -1,9 +1,8 @@
 #include "casepush/common/pose_gaussian.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Eigenvalues>
 
 #include "casepush/common/check.h"
 

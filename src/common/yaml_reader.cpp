@@ -1,11 +1,12 @@
 #include "casepush/common/yaml_reader.h"
 
+#include <yaml-cpp/yaml.h>
+
+#include <charconv>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <sstream>
-
-#include <yaml-cpp/yaml.h>
+#include <system_error>
 
 #include "casepush/common/input_error.h"
 
@@ -22,6 +23,37 @@ struct YamlReader::State {
     const YAML::Node& constant = node;
     return constant[key];
   }
+
+  /// State of a reader for a map found under `name`.
+  std::unique_ptr<State> nested(const std::string& name, const YAML::Node& child) const {
+    auto state = std::make_unique<State>();
+    state->node = child;
+    state->file = file;
+    state->path = path.empty() ? name : path + "." + name;
+    if (!child.IsMap()) {
+      throw InputError(file + ": " + state->path, "must be a map (key: value)");
+    }
+    return state;
+  }
+
+  template <typename Load>
+  static std::unique_ptr<State> root(const std::string& name, Load load) {
+    auto state = std::make_unique<State>();
+    state->file = name;
+    try {
+      state->node = load();
+    } catch (const YAML::BadFile&) {
+      throw InputError(name, "cannot be read; is the path right?");
+    } catch (const std::ios_base::failure&) {  // e.g. a folder
+      throw InputError(name, "cannot be read; is it a file?");
+    } catch (const YAML::Exception& error) {
+      throw InputError(name, std::string("is not valid YAML: ") + error.what());
+    }
+    if (!state->node.IsMap()) {
+      throw InputError(name, "must hold a YAML map (key: value)");
+    }
+    return state;
+  }
 };
 
 namespace {
@@ -33,10 +65,13 @@ std::string bound(double low, double high) {
 }
 
 double finiteNumber(const YAML::Node& node, const std::string& where, const std::string& bounds) {
+  // Not node.as<double>(): that follows the global locale, where 0.5 may not be a number.
+  const std::string text = node.IsScalar() ? node.Scalar() : "";
+  const char* begin = text.data() + (text.rfind('+', 0) == 0 ? 1 : 0);
+  const char* end = text.data() + text.size();
   double value = 0.0;
-  try {
-    value = node.as<double>();
-  } catch (const YAML::Exception&) {
+  const std::from_chars_result result = std::from_chars(begin, end, value);
+  if (result.ec != std::errc() || result.ptr != end) {
     throw InputError(where, "is not a number; " + bounds);
   }
   if (!std::isfinite(value)) {
@@ -53,33 +88,11 @@ YamlReader::YamlReader(YamlReader&&) noexcept = default;
 YamlReader& YamlReader::operator=(YamlReader&&) noexcept = default;
 
 YamlReader YamlReader::fromFile(const std::filesystem::path& path) {
-  auto state = std::make_unique<State>();
-  state->file = path.string();
-  try {
-    state->node = YAML::LoadFile(path.string());
-  } catch (const YAML::BadFile&) {
-    throw InputError(path.string(), "cannot be read; is the path right?");
-  } catch (const YAML::Exception& error) {
-    throw InputError(path.string(), std::string("is not valid YAML: ") + error.what());
-  }
-  if (!state->node.IsMap()) {
-    throw InputError(path.string(), "must hold a YAML map (key: value)");
-  }
-  return YamlReader(std::move(state));
+  return YamlReader(State::root(path.string(), [&] { return YAML::LoadFile(path.string()); }));
 }
 
 YamlReader YamlReader::fromText(const std::string& text, const std::string& name) {
-  auto state = std::make_unique<State>();
-  state->file = name;
-  try {
-    state->node = YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw InputError(name, std::string("is not valid YAML: ") + error.what());
-  }
-  if (!state->node.IsMap()) {
-    throw InputError(name, "must hold a YAML map (key: value)");
-  }
-  return YamlReader(std::move(state));
+  return YamlReader(State::root(name, [&] { return YAML::Load(text); }));
 }
 
 bool YamlReader::has(const std::string& key) const {
@@ -170,14 +183,7 @@ std::optional<YamlReader> YamlReader::optionalChild(const std::string& key) {
   if (!node.IsDefined()) {
     return std::nullopt;
   }
-  if (!node.IsMap()) {
-    throw InputError(where(key), "must be a map (key: value)");
-  }
-  auto state = std::make_unique<State>();
-  state->node = node;
-  state->file = state_->file;
-  state->path = state_->path.empty() ? key : state_->path + "." + key;
-  return YamlReader(std::move(state));
+  return YamlReader(state_->nested(key, node));
 }
 
 std::vector<YamlReader> YamlReader::children(const std::string& key) {
@@ -190,25 +196,21 @@ std::vector<YamlReader> YamlReader::children(const std::string& key) {
     throw InputError(where(key), "must be a list of maps");
   }
   for (std::size_t i = 0; i < node.size(); ++i) {
-    const std::string name = key + "[" + std::to_string(i) + "]";
-    if (!node[i].IsMap()) {
-      throw InputError(where(name), "must be a map (key: value)");
-    }
-    auto state = std::make_unique<State>();
-    state->node = node[i];
-    state->file = state_->file;
-    state->path = state_->path.empty() ? name : state_->path + "." + name;
-    readers.push_back(YamlReader(std::move(state)));
+    readers.push_back(YamlReader(state_->nested(key + "[" + std::to_string(i) + "]", node[i])));
   }
   return readers;
 }
 
 void YamlReader::finish() const {
   std::string unknown;
+  std::set<std::string> seen;
   for (const auto& entry : state_->node) {
-    const std::string key = entry.first.as<std::string>();
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a text)";
     if (state_->read.count(key) == 0) {
       unknown += (unknown.empty() ? "" : ", ") + key;
+    }
+    if (!seen.insert(key).second) {
+      throw InputError(where(key), "is given twice");
     }
   }
   if (!unknown.empty()) {

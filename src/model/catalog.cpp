@@ -57,7 +57,7 @@ std::filesystem::path Catalog::find(const std::string& kind, const std::string& 
     for (const std::string& name : known) {
       list += (list.empty() ? "" : ", ") + name;
     }
-    throw InputError(kind, "there is none named '" + name_or_file +
+    throw InputError("config/" + kind, "there is none named '" + name_or_file +
                                "'; known are: " + (list.empty() ? "none" : list) + "; or give a " +
                                extension + " file");
   }

@@ -11,12 +11,11 @@ namespace casepush {
 }  // namespace casepush
 
 /// Always on. `values` is a stream expression that prints what led to the failure.
-#define CASEPUSH_CHECK(condition, values)                                             \
-  do {                                                                                \
-    if (!(condition)) {                                                               \
-      std::ostringstream casepush_check_stream;                                       \
-      casepush_check_stream << values;                                                \
-      ::casepush::reportFailedCheck(#condition, __FILE__, __LINE__,                   \
-                                    casepush_check_stream.str());                     \
-    }                                                                                 \
+#define CASEPUSH_CHECK(condition, values)                                                         \
+  do {                                                                                            \
+    if (!(condition)) {                                                                           \
+      std::ostringstream casepush_check_stream;                                                   \
+      casepush_check_stream << values;                                                            \
+      ::casepush::reportFailedCheck(#condition, __FILE__, __LINE__, casepush_check_stream.str()); \
+    }                                                                                             \
   } while (false)

@@ -40,7 +40,7 @@ class YamlReader {
   /// List of finite numbers of the given length (`count` < 0: any length).
   std::vector<double> numbers(const std::string& key, int count);
 
-  YamlReader child(const std::string& key);               ///< Map under `key`; required.
+  YamlReader child(const std::string& key);  ///< Map under `key`; required.
   std::optional<YamlReader> optionalChild(const std::string& key);
   std::vector<YamlReader> children(const std::string& key);  ///< List of maps; empty if absent.
 

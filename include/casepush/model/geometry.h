@@ -1,10 +1,9 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 namespace casepush {
 

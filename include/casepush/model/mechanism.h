@@ -1,10 +1,9 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include "casepush/model/geometry.h"
 
@@ -47,9 +46,11 @@ struct Mechanism {
 };
 
 /// Reads a URDF file.
-/// @throws InputError naming file, element and reason: unreadable, not URDF, a link without inertia,
+/// @throws InputError naming file, element and reason: unreadable, not URDF, a link without
+/// inertia,
 ///   a mass that is not positive and finite, an inertia that is not positive definite or breaks the
-///   triangle inequality, a joint type other than fixed or continuous (or revolute), a mesh.
+///   triangle inequality, a joint type other than fixed or continuous (limits and damping are not
+///   modelled, so they are refused), a mesh.
 Mechanism loadMechanism(const std::filesystem::path& urdf_file);
 
 }  // namespace casepush

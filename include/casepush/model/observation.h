@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "casepush/common/pose2.h"
 
@@ -15,8 +14,8 @@ struct ObjectState {
   std::string model;  ///< Name of its ObjectModel.
   Pose2 map_T_object;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< See PoseGaussian.
-  Twist2 twist;           ///< In the object frame.
-  double stamp_s = 0.0;   ///< When it was last seen.
+  Twist2 twist;                                          ///< In the object frame.
+  double stamp_s = 0.0;                                  ///< When it was last seen.
   bool moving = false;
 };
 

@@ -37,6 +37,7 @@ struct PushPlan {
   Pose2 map_T_goal;
   GoalTolerance tolerance;
   std::vector<PlannedPush> pushes;
+  double zeta = 3.0;  ///< Spread of the sigma points that every push was checked with.
 
   double lengthM() const;  ///< Sum of the distances between successive resting poses.
 };
@@ -53,15 +54,15 @@ struct PlanRequest {
 
 enum class PlanStatus {
   kSolved,
-  kInvalidRequest,    ///< Not finite, unknown object, bad tolerance.
-  kNoCases,           ///< The case base has none for this object.
+  kInvalidRequest,  ///< Not finite, unknown object, bad tolerance.
+  kNoCases,         ///< The case base has none for this object.
   kStartInCollision,
   kGoalInCollision,
   kGoalOutsideMap,
-  kUnreachable,       ///< The whole tree was grown and no plan found.
+  kUnreachable,  ///< The whole tree was grown and no plan found.
   kDeadline,
   kCancelled,
-  kPlannerGone,       ///< Whoever should plan does not answer.
+  kPlannerGone,  ///< Whoever should plan does not answer.
 };
 const char* toString(PlanStatus status);
 
@@ -75,7 +76,7 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kInvalidRequest;
   std::string explanation;  ///< One line for a person, also when solved.
   PushPlan plan;
-  int nodes = 0;           ///< Tree size.
+  int nodes = 0;  ///< Tree size.
   int collision_checks = 0;
   double planning_s = 0.0;  ///< Wall time; the only field that a seed does not fix.
   std::vector<TreeEdge> tree;

@@ -17,12 +17,12 @@ struct PredictionTest {
 
 /// How a single push ended.
 enum class PushOutcome {
-  kDone,             ///< Pushed, and the object is at rest.
+  kDone,  ///< Pushed, and the object is at rest.
   kCancelled,
-  kApproachFailed,   ///< No path to the push's start pose.
-  kObjectLost,       ///< Not seen for too long.
-  kRobotLost,        ///< The robot's own pose is stale.
-  kNotMoved,         ///< The object did not move.
+  kApproachFailed,  ///< No path to the push's start pose.
+  kObjectLost,      ///< Not seen for too long.
+  kRobotLost,       ///< The robot's own pose is stale.
+  kNotMoved,        ///< The object did not move.
   kTimeout,
 };
 const char* toString(PushOutcome outcome);
@@ -39,7 +39,7 @@ struct PushReport {
   Pose2 map_T_end;             ///< Object at rest, as observed.
   PoseGaussian map_expected;   ///< The case's prediction; meaningless if case_id == 0.
   PredictionTest test;
-  Case recorded;               ///< The push as it happened, statistics of this one observation.
+  Case recorded;  ///< The push as it happened, statistics of this one observation.
 };
 
 }  // namespace casepush

@@ -40,7 +40,8 @@ struct RobotModel {
   Mechanism mechanism;
   RobotLimits limits;
   std::vector<CameraModel> cameras;
-  Solid solid;  ///< Every collision shape in the base frame; `part` is the link (base, basket, body).
+  Solid
+      solid;  ///< Every collision shape in the base frame; `part` is the link (base, basket, body).
   double radius_m = 0.0;  ///< Circumscribed radius of the solid.
 };
 

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 namespace casepush {
 
@@ -19,7 +18,7 @@ struct TagDetection {
 
 /// All tags of one image; empty if none was seen.
 struct TagFrame {
-  std::string camera;  ///< Name of the robot's camera.
+  std::string camera;    ///< Name of the robot's camera.
   double stamp_s = 0.0;  ///< When the image was taken.
   std::vector<TagDetection> detections;
 };

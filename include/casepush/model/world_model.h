@@ -19,8 +19,8 @@ struct StaticBox {
 
 /// The floor's part in friction and rolling resistance.
 struct Floor {
-  double friction = 0.8;                 ///< Coulomb coefficient of a wheel's contact.
-  double rolling_lever_arm_m = 0.0024;   ///< f of F = f N / r (Al-Eisawi et al. 1999: tile).
+  double friction = 0.8;                ///< Coulomb coefficient of a wheel's contact.
+  double rolling_lever_arm_m = 0.0024;  ///< f of F = f N / r (Al-Eisawi et al. 1999: tile).
 };
 
 /// One pushable object in a world.
@@ -46,7 +46,8 @@ struct WorldModel {
   bool contains(const Pose2& map_T_x) const;
 };
 
-/// @throws InputError naming file, element and reason; also if an object or the robot stands outside.
+/// @throws InputError naming file, element and reason; also if an object or the robot stands
+/// outside.
 WorldModel loadWorldModel(const std::filesystem::path& yaml_file);
 
 }  // namespace casepush
