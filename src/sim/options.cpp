@@ -1,0 +1,38 @@
+#include <cmath>
+#include <sstream>
+
+#include "casepush/common/input_error.h"
+#include "casepush/sim/simulator.h"
+
+namespace casepush {
+namespace {
+
+class Violations {
+ public:
+  void require(const char* key, double value, double low, double high) {
+    if (std::isfinite(value) && value >= low && value <= high) return;
+    text_ << (text_.tellp() > 0 ? "; " : "") << key << " is " << value << ", must be in [" << low
+          << ", " << high << "]";
+  }
+  void raise() const {
+    if (!text_.str().empty()) throw InputError("simulator options", text_.str());
+  }
+
+ private:
+  std::ostringstream text_;
+};
+
+}  // namespace
+
+void SimulatorOptions::validate() const {
+  Violations violations;
+  violations.require("step_s", step_s, 1e-5, 0.02);
+  violations.require("solver_iterations", solver_iterations, 1, 10000);
+  violations.require("command_timeout_s", command_timeout_s, 0.001, 3600.0);
+  violations.require("localisation_sigma_m", localisation_sigma_m, 0.0, 1.0);
+  violations.require("localisation_sigma_rad", localisation_sigma_rad, 0.0, 1.0);
+  violations.require("localisation_correlation_s", localisation_correlation_s, 0.001, 1e6);
+  violations.raise();
+}
+
+}  // namespace casepush

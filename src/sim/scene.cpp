@@ -1,0 +1,65 @@
+#include "scene.h"
+
+#include <set>
+
+#include "bullet_conversions.h"
+#include "casepush/common/input_error.h"
+
+namespace casepush::sim {
+namespace {
+
+const ObjectModel& findModel(const Scene& scene, const ObjectPlacement& placement) {
+  const auto found = scene.models.find(placement.model);
+  if (found == scene.models.end()) {
+    throw InputError("world " + scene.world.name + ": object " + placement.id,
+                     "its model " + placement.model + " was not given");
+  }
+  return found->second;
+}
+
+void checkIds(const WorldModel& world) {
+  std::set<std::string> ids{"robot"};
+  for (const StaticBox& box : world.boxes) ids.insert(box.name);
+  for (const ObjectPlacement& object : world.objects) {
+    if (!ids.insert(object.id).second) {
+      throw InputError("world " + world.name + ": object " + object.id,
+                       "its id is taken; ids of objects, boxes and \"robot\" must differ");
+    }
+  }
+}
+
+}  // namespace
+
+Scene::Scene(WorldModel world_model, RobotModel robot_model,
+             std::map<std::string, ObjectModel> object_models)
+    : world(std::move(world_model)),
+      robot(std::move(robot_model)),
+      models(std::move(object_models)),
+      robot_blueprint(makeBlueprint(robot)) {
+  checkIds(world);
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    const ObjectPlacement& placement = world.objects[i];
+    const ObjectModel& model = findModel(*this, placement);
+    furniture.push_back(makeBlueprint(placement.id, static_cast<int>(i), model));
+    for (TagMount mount : model.tags) {
+      mount.id += placement.tag_offset;
+      tags.push_back({static_cast<int>(i), mount});
+    }
+  }
+  for (const StaticBox& box : world.boxes) {
+    StaticBlueprint blueprint{toBullet(box.map_T_box), makeShape(box.box), {}};
+    blueprint.tag.kind = CollisionTag::Kind::kStatic;
+    blueprint.tag.body = box.name;
+    blueprint.tag.parts = {box.name};
+    boxes.push_back(std::move(blueprint));
+  }
+}
+
+int Scene::objectIndex(const std::string& id) const {
+  for (std::size_t i = 0; i < furniture.size(); ++i) {
+    if (furniture[i].id == id) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace casepush::sim

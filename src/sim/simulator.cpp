@@ -1,0 +1,225 @@
+#include "casepush/sim/simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "bullet_conversions.h"
+#include "casepush/common/input_error.h"
+#include "contact_log.h"
+#include "localisation.h"
+#include "physics_world.h"
+#include "scene.h"
+#include "tag_camera.h"
+
+namespace casepush {
+namespace {
+
+using sim::PhysicsWorld;
+using sim::Scene;
+using sim::WorldState;
+
+constexpr char kRobotId[] = "robot";
+
+std::vector<std::string> allBodies(const Scene& scene) {
+  std::vector<std::string> bodies{kRobotId};
+  for (const auto& furniture : scene.furniture) bodies.push_back(furniture.id);
+  return bodies;
+}
+
+WorldState startState(const Scene& scene, Random& swivels) {
+  WorldState state;
+  state.robot = stateAtRest(scene.robot_blueprint, scene.world.map_T_robot);
+  for (std::size_t i = 0; i < scene.furniture.size(); ++i) {
+    state.furniture.push_back(
+        stateAtRest(scene.furniture[i], scene.world.objects[i].map_T_object, swivels));
+  }
+  return state;
+}
+
+void checkPose(const WorldModel& world, const std::string& where, const Pose2& pose) {
+  if (!pose.isFinite()) throw InputError(where, "the pose is not finite");
+  if (world.contains(pose)) return;
+  std::ostringstream what;
+  what << "(" << pose.x() << ", " << pose.y() << ") is outside the world, which spans x "
+       << world.min_m.x() << " to " << world.max_m.x() << ", y " << world.min_m.y() << " to "
+       << world.max_m.y();
+  throw InputError(where, what.str());
+}
+
+// Scales a twist into the limits; false if it was beyond them.
+bool clampTwist(const RobotLimits& limits, Twist2& twist) {
+  constexpr double kTolerance = 1.0 + 1e-9;  // A norm of limited components may exceed by rounding.
+  bool within = true;
+  if (twist.speed() > limits.max_speed_mps * kTolerance) {
+    const double factor = limits.max_speed_mps / twist.speed();
+    twist.vx_mps *= factor;
+    twist.vy_mps *= factor;
+    within = false;
+  }
+  if (std::abs(twist.wz_rps) > limits.max_yaw_rate_rps * kTolerance) {
+    twist.wz_rps = std::copysign(limits.max_yaw_rate_rps, twist.wz_rps);
+    within = false;
+  }
+  return within;
+}
+
+}  // namespace
+
+struct Simulator::Data {
+  /// All that reset() replaces.
+  struct Run {
+    Run(const Scene& scene, const SimulatorOptions& options)
+        : swivels(Random::stream(options.seed, "swivels")),
+          physics(std::make_unique<PhysicsWorld>(
+              scene, startState(scene, swivels),
+              sim::StepOptions{options.step_s, options.solver_iterations})),
+          cameras(scene, options.sensor_noise, options.seed),
+          localisation(options, scene.world.map_T_robot) {}
+
+    Random swivels;
+    std::unique_ptr<PhysicsWorld> physics;
+    sim::TagCameras cameras;
+    sim::Localisation localisation;
+    sim::ContactLog contacts;
+    std::int64_t steps = 0;
+    Twist2 command;
+    double command_time_s = -std::numeric_limits<double>::infinity();
+  };
+
+  Data(WorldModel world, RobotModel robot, std::map<std::string, ObjectModel> models,
+       const SimulatorOptions& simulator_options)
+      : scene(std::move(world), std::move(robot), std::move(models)), options(simulator_options) {
+    start();
+  }
+
+  void start() {
+    auto next = std::make_unique<Run>(scene, options);
+    const auto overlap = next->physics->findOverlap(allBodies(scene));
+    if (overlap) throw InputError("world " + scene.world.name, *overlap);
+    run = std::move(next);
+  }
+
+  double time() const { return static_cast<double>(run->steps) * options.step_s; }
+
+  int objectIndex(const std::string& id) const {
+    const int index = scene.objectIndex(id);
+    if (index < 0) {
+      throw InputError("world " + scene.world.name, "there is no object \"" + id + "\"");
+    }
+    return index;
+  }
+
+  const sim::Furniture& furniture(const std::string& id) const {
+    return run->physics->furniture(objectIndex(id));
+  }
+
+  Scene scene;
+  SimulatorOptions options;
+  std::unique_ptr<Run> run;
+};
+
+Simulator::Simulator(WorldModel world, RobotModel robot, std::map<std::string, ObjectModel> models,
+                     SimulatorOptions options) {
+  options.validate();
+  const std::string where = "world " + world.name + ": ";
+  checkPose(world, where + kRobotId, world.map_T_robot);
+  for (const ObjectPlacement& object : world.objects) {
+    checkPose(world, where + object.id, object.map_T_object);
+  }
+  data_ = std::make_unique<Data>(std::move(world), std::move(robot), std::move(models), options);
+}
+
+Simulator::~Simulator() = default;
+
+bool Simulator::setCommand(const Twist2& robot_twist) {
+  if (!robot_twist.isFinite()) return false;
+  Twist2 twist = robot_twist;
+  const bool within = clampTwist(data_->scene.robot.limits, twist);
+  data_->run->command = twist;
+  data_->run->command_time_s = time();
+  return within;
+}
+
+void Simulator::step(int count) {
+  constexpr double kTimeEpsilon_s = 1e-9;
+  Data::Run& run = *data_->run;
+  for (int i = 0; i < count; ++i) {
+    const double command_age_s = data_->time() - run.command_time_s;
+    const bool expired = command_age_s > data_->options.command_timeout_s - kTimeEpsilon_s;
+    run.physics->setRobotTarget(expired ? Twist2{} : run.command);
+    run.physics->step(run.contacts);
+    ++run.steps;
+    const sim::RobotBase& robot = run.physics->robot();
+    run.localisation.update(data_->options.step_s, robot.pose(), robot.twist());
+    run.cameras.update(data_->time(), *run.physics);
+  }
+}
+
+double Simulator::time() const { return data_->time(); }
+double Simulator::stepSeconds() const { return data_->options.step_s; }
+
+std::vector<TagFrame> Simulator::takeTagFrames() { return data_->run->cameras.take(time()); }
+OdometryReading Simulator::odometry() const { return data_->run->localisation.reading(time()); }
+std::vector<ContactReport> Simulator::takeContacts() { return data_->run->contacts.take(); }
+
+Pose2 Simulator::trueRobotPose() const { return data_->run->physics->robot().pose(); }
+
+Pose2 Simulator::trueObjectPose(const std::string& id) const {
+  return sim::toPlanar(data_->furniture(id).map_T_root());
+}
+
+Twist2 Simulator::trueObjectTwist(const std::string& id) const {
+  return data_->furniture(id).twist();
+}
+
+std::vector<Eigen::Isometry3d> Simulator::trueLinkPoses(const std::string& id) const {
+  return data_->furniture(id).map_T_links();
+}
+
+void Simulator::setPose(const std::string& id, const Pose2& map_T_body) {
+  setPoses({{id, map_T_body}});
+}
+
+void Simulator::setPoses(const std::map<std::string, Pose2>& map_T_bodies) {
+  Data::Run& run = *data_->run;
+  const Scene& scene = data_->scene;
+  Random swivels = run.swivels;
+  WorldState state = run.physics->state();
+  std::vector<std::string> moved;
+  for (const auto& [id, pose] : map_T_bodies) {
+    moved.push_back(id);
+    if (id == kRobotId) {
+      checkPose(scene.world, id, pose);
+      state.robot = stateAtRest(scene.robot_blueprint, pose);
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(data_->objectIndex(id));
+    checkPose(scene.world, id, pose);
+    state.furniture[index] = stateAtRest(scene.furniture[index], pose, swivels);
+  }
+  auto physics = std::make_unique<PhysicsWorld>(
+      scene, state, sim::StepOptions{data_->options.step_s, data_->options.solver_iterations});
+  const auto overlap = physics->findOverlap(moved);
+  if (overlap) throw InputError("world " + scene.world.name, *overlap);
+  run.physics = std::move(physics);
+  run.swivels = swivels;
+  if (map_T_bodies.count(kRobotId) > 0) {
+    run.command = {};
+    run.localisation.relocate(trueRobotPose());
+  }
+}
+
+void Simulator::reset(std::uint64_t seed) {
+  data_->options.seed = seed;
+  data_->start();
+}
+
+const WorldModel& Simulator::world() const { return data_->scene.world; }
+const RobotModel& Simulator::robot() const { return data_->scene.robot; }
+const ObjectModel& Simulator::object(const std::string& id) const {
+  return *data_->scene.furniture[static_cast<std::size_t>(data_->objectIndex(id))].model;
+}
+
+}  // namespace casepush
