@@ -1,0 +1,79 @@
+#include "casepush/cases/outcome_statistics.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "casepush/common/check.h"
+#include "casepush/common/input_error.h"
+
+namespace casepush {
+namespace {
+
+void requirePositive(const char* key, double value) {
+  if (!std::isfinite(value) || value <= 0.0) {
+    throw InputError(std::string("covariance floor: ") + key,
+                     "is " + std::to_string(value) + "; must be finite and > 0");
+  }
+}
+
+// Eq. 1 and 2 with the past counting `weight` observations (eq. 8, 9); t = weight + 1.
+OutcomeStatistics blend(const OutcomeStatistics& past, const Pose2& start_T_object, double weight,
+                        const CovarianceFloor& floor) {
+  if (!start_T_object.isFinite()) {
+    throw InputError("observed outcome", "is not finite");
+  }
+  floor.validate();
+  const double t = weight + 1.0;
+  const Pose2& old_mean = past.start_outcome.mean;
+  const Eigen::Vector3d e = logSe2(old_mean.inverse() * start_T_object);
+  // e' = log(mean_t^-1 x) lies on the same geodesic as e, so e' = (1 - 1/t) e exactly, and eq. 2's
+  // product is positive semi-definite whatever the rounding.
+  const Eigen::Matrix3d scatter = (weight / t) * (e * e.transpose());
+  const Eigen::Matrix3d covariance = (weight * past.start_outcome.covariance + scatter) / t;
+  const Pose2 mean = weight > 0.0 ? old_mean * expSe2(e / t) : start_T_object;
+  return {{mean, raiseToFloor(0.5 * (covariance + covariance.transpose()), floor)}, t};
+}
+
+}  // namespace
+
+void CovarianceFloor::validate() const {
+  requirePositive("position_m", position_m);
+  requirePositive("yaw_rad", yaw_rad);
+}
+
+Eigen::Matrix3d raiseToFloor(const Eigen::Matrix3d& covariance, const CovarianceFloor& floor) {
+  const Eigen::Vector3d scale(floor.position_m, floor.position_m, floor.yaw_rad);
+  const Eigen::Matrix3d scaled =
+      scale.cwiseInverse().asDiagonal() * covariance * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scaled);
+  if (solver.eigenvalues().minCoeff() >= 1.0) {
+    return covariance;
+  }
+  const Eigen::Matrix3d root = scale.asDiagonal() * solver.eigenvectors();
+  const Eigen::Matrix3d raised =
+      root * solver.eigenvalues().cwiseMax(1.0).asDiagonal() * root.transpose();
+  return 0.5 * (raised + raised.transpose());
+}
+
+OutcomeStatistics addObservation(const OutcomeStatistics& past, const Pose2& start_T_object,
+                                 const CovarianceFloor& floor) {
+  CASEPUSH_CHECK(past.effective_count >= 0.0, "count = " << past.effective_count);
+  return blend(past, start_T_object, past.effective_count, floor);
+}
+
+OutcomeStatistics adapt(const OutcomeStatistics& past, const Pose2& start_T_object, double weight,
+                        const CovarianceFloor& floor) {
+  CASEPUSH_CHECK(weight >= 1.0 && weight <= past.effective_count,
+                 "weight = " << weight << ", count = " << past.effective_count);
+  return blend(past, start_T_object, weight, floor);
+}
+
+double adaptationWeight(double p_value, double scale_k, double effective_count) {
+  CASEPUSH_CHECK(p_value >= 0.0 && p_value <= 1.0, "p = " << p_value);
+  CASEPUSH_CHECK(scale_k > 0.0, "K = " << scale_k);
+  return std::max(1.0, std::min(p_value * scale_k, effective_count));
+}
+
+}  // namespace casepush
