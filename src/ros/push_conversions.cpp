@@ -46,18 +46,6 @@ double finite(double value, const char* where) {
   return value;
 }
 
-GoalTolerance tolerance(double position_m, double yaw_rad) {
-  // 0 stands for the default, so that a goal typed by hand may leave it out.
-  GoalTolerance result;
-  if (position_m != 0.0) {
-    result.position_m = finite(position_m, "position_tolerance");
-  }
-  if (yaw_rad != 0.0) {
-    result.yaw_rad = finite(yaw_rad, "yaw_tolerance");
-  }
-  return result;
-}
-
 PushSample toMessage(const CaseStep& step) {
   PushSample message;
   message.object_T_robot = toMessage(step.object_T_robot);
@@ -69,6 +57,22 @@ PushSample toMessage(const CaseStep& step) {
 }
 
 }  // namespace
+
+GoalTolerance goalTolerance(double position_m, double yaw_rad) {
+  if (!(position_m >= 0.0 && yaw_rad >= 0.0) || !std::isfinite(position_m + yaw_rad)) {
+    throw InputError("goal tolerance", "position " + std::to_string(position_m) + " m, yaw " +
+                                           std::to_string(yaw_rad) +
+                                           " rad: both must be finite and not negative");
+  }
+  GoalTolerance result;
+  if (position_m > 0.0) {
+    result.position_m = position_m;
+  }
+  if (yaw_rad > 0.0) {
+    result.yaw_rad = yaw_rad;
+  }
+  return result;
+}
 
 PushCase toMessage(const Case& push_case) {
   PushCase message;
@@ -168,7 +172,7 @@ PushPlan fromMessage(const Plan& message) {
   PushPlan plan;
   plan.object = fromMessage(message.object);
   plan.map_T_goal = fromMessage(message.goal);
-  plan.tolerance = tolerance(message.position_tolerance, message.yaw_tolerance);
+  plan.tolerance = goalTolerance(message.position_tolerance, message.yaw_tolerance);
   plan.zeta = finite(message.zeta, "plan: zeta");
   for (const PlanStep& step : message.pushes) {
     plan.pushes.push_back({step.case_id, fromMessage(step.start), fromMessage(step.outcome)});
@@ -246,7 +250,7 @@ PlanRequest fromMessage(const PlanPushGoal& message) {
                      "no object '" + message.object_id + "' is known (has it been seen?)");
   }
   request.map_T_goal = planarPose(fromMessage(message.goal.pose));
-  request.tolerance = tolerance(message.position_tolerance, message.yaw_tolerance);
+  request.tolerance = goalTolerance(message.position_tolerance, message.yaw_tolerance);
   request.map_T_robot = fromMessage(message.robot);
   request.seed = message.seed;
   if (message.deadline != 0.0) {

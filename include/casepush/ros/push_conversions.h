@@ -22,6 +22,10 @@ Case fromMessage(const PushCase& message);
 PushCaseArray toMessage(const std::vector<Case>& cases, double stamp_s);
 std::vector<Case> fromMessage(const PushCaseArray& message);
 
+/// 0 stands for the default.
+/// @throws InputError if negative or not finite.
+GoalTolerance goalTolerance(double position_m, double yaw_rad);
+
 TrialPush toMessage(const PushConfiguration& configuration);
 PushConfiguration fromMessage(const TrialPush& message);
 

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <actionlib/server/action_server.h>
+#include <casepush/ExecutePushAction.h>
+#include <casepush/ExecutorState.h>
+#include <casepush/PushObjectAction.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "casepush/execution/execute_push.h"
+#include "casepush/execution/push_task.h"
+
+namespace casepush {
+
+/// How an activity of the executor came to its end.
+enum class ActivityEnd {
+  kFinished,   ///< Its behaviour succeeded or failed.
+  kCancelled,  ///< By the action's client.
+  kStopped,    ///< By the service stop, or because time stood still.
+};
+
+/// Where a push belongs, for its report.
+struct ReportContext {
+  int plan_number = 0;
+  int push_index = 0;
+  bool adapted = false;
+};
+using ReportSink = std::function<void(const PushReport&, const ReportContext&)>;
+
+/// A behaviour that an action goal asked for.
+class Activity {
+ public:
+  virtual ~Activity() = default;
+
+  virtual Tick tick(const Observation& observation) = 0;
+  virtual void cancel() = 0;  ///< The next tick ends it.
+
+  virtual std::string goalId() const = 0;
+  virtual std::string describe() const = 0;
+  virtual ExecutorState state() const = 0;  ///< Without header.
+  virtual void publishFeedback() = 0;
+
+  /// Sends the action's result.
+  virtual void finish(ActivityEnd end, const std::string& explanation, double now_s) = 0;
+};
+
+using PushObjectServer = actionlib::ActionServer<PushObjectAction>;
+using ExecutePushServer = actionlib::ActionServer<ExecutePushAction>;
+
+/// The action push_object.
+class PushObjectActivity : public Activity {
+ public:
+  /// @param sink  Called for each push.
+  PushObjectActivity(PushObjectServer::GoalHandle goal, PushTaskGoal task_goal, RobotModel robot,
+                     PushTaskServices services, PushTaskOptions options, ReportSink sink);
+
+  Tick tick(const Observation& observation) override;
+  void cancel() override;
+  std::string goalId() const override;
+  std::string describe() const override;
+  ExecutorState state() const override;
+  void publishFeedback() override;
+  void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
+
+ private:
+  PushTaskServices withReports(PushTaskServices services, ReportSink sink);
+
+  PushObjectServer::GoalHandle goal_;
+  PushTaskGoal task_goal_;
+  PushTask task_;
+  double start_stamp_s_ = -1.0;
+  double last_t_squared_ = 0.0;
+};
+
+/// The action execute_push.
+class ExecutePushActivity : public Activity {
+ public:
+  ExecutePushActivity(ExecutePushServer::GoalHandle goal, ExecutePush push, ReportSink sink);
+
+  Tick tick(const Observation& observation) override;
+  void cancel() override;
+  std::string goalId() const override;
+  std::string describe() const override;
+  ExecutorState state() const override;
+  void publishFeedback() override;
+  void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
+
+ private:
+  ExecutePushServer::GoalHandle goal_;
+  ExecutePush push_;
+  ReportSink sink_;
+};
+
+const char* toString(ExecutePush::Phase phase);
+
+}  // namespace casepush

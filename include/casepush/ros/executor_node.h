@@ -1,0 +1,104 @@
+#pragma once
+
+#include <casepush/ExecutedPush.h>
+#include <casepush/Octomap.h>
+#include <casepush/PushCaseArray.h>
+#include <casepush/PushableObjectArray.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/ros/action_plan_client.h"
+#include "casepush/ros/activity.h"
+#include "casepush/ros/diagnostics.h"
+#include "casepush/ros/node_parameters.h"
+#include "casepush/ros/watchdog.h"
+
+namespace casepush {
+
+/// The only writer of cmd_vel: ticks one behaviour at a time on each odometry message.
+///
+/// The base is told to stand still whatever the behaviour says when the robot's or the objects'
+/// poses are stale, and by a watchdog on wall time when ticks cease altogether.
+class ExecutorNode {
+ public:
+  ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle handle);
+
+ private:
+  using SteadyClock = std::chrono::steady_clock;
+
+  void onOctomap(const Octomap& message);
+  void onCases(const PushCaseArray& message);
+  void onObjects(const PushableObjectArray& message);
+  void onOdometry(const nav_msgs::Odometry& message);
+  void onPushObject(PushObjectServer::GoalHandle goal);
+  void onExecutePush(ExecutePushServer::GoalHandle goal);
+  template <typename GoalHandle>
+  void onCancel(GoalHandle goal);
+  bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void checkTicks();
+
+  /// Why nothing can be executed now; "" if all is there.
+  std::string whatIsMissing() const;
+  PushTaskGoal taskGoal(const PushObjectGoal& goal) const;
+  ExecutePush makePush(const ExecutePushGoal& goal) const;
+  ApproachPlanner approach(const std::string& object_id) const;
+  std::vector<Case> casesOf(const std::string& model) const;
+
+  void begin(std::unique_ptr<Activity> activity);
+  void tick(double now_s);
+  std::optional<Observation> observe(double now_s) const;
+  Twist2 safeCommand(const Observation& observation, const Twist2& wanted);
+  void end(ActivityEnd how, const std::string& explanation);
+  void finish();
+  void publishReport(const PushReport& report, const ReportContext& context);
+  void publishState(double now_s);
+  void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ExecutorNodeParameters parameters_;
+  ros::NodeHandle handle_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+
+  std::shared_ptr<const PushPlanner> checker_;  ///< Null until there is a map.
+  std::vector<Case> cases_;
+  std::vector<ObjectState> objects_;
+  double objects_stamp_s_ = -1e9;
+  nav_msgs::Odometry odometry_;
+
+  ActionPlanClient plans_;
+  std::unique_ptr<Activity> activity_;
+  ActivityEnd end_ = ActivityEnd::kFinished;
+  std::string end_explanation_;
+  SteadyClock::time_point last_tick_;
+  double last_stamp_s_ = 0.0;
+  double last_state_s_ = -1e9;
+  std::string last_phase_;
+  std::string last_end_;  ///< How the last activity ended.
+  std::uint32_t report_count_ = 0;
+  int overridden_commands_ = 0;
+
+  ros::Publisher command_;
+  ros::Publisher reports_;
+  ros::Publisher state_;
+  ros::Subscriber octomap_subscriber_;
+  ros::Subscriber cases_subscriber_;
+  ros::Subscriber objects_subscriber_;
+  ros::Subscriber odometry_subscriber_;
+  ros::ServiceServer stop_;
+  ros::WallTimer tick_check_;
+  PushObjectServer push_object_;
+  ExecutePushServer execute_push_;
+  Diagnostics diagnostics_;  ///< Its timer uses the members above.
+  Watchdog watchdog_;        ///< Last: its thread uses command_.
+};
+
+}  // namespace casepush

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <actionlib/client/simple_action_client.h>
+#include <actionlib/server/simple_action_server.h>
+#include <casepush/ExecutePushAction.h>
+#include <casepush/ExecutedPush.h>
+#include <casepush/ExportCases.h>
+#include <casepush/ImportCases.h>
+#include <casepush/LearnObjectAction.h>
+#include <casepush/PushableObjectArray.h>
+#include <ros/ros.h>
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/cases/case_base.h"
+#include "casepush/execution/exploration.h"
+#include "casepush/ros/diagnostics.h"
+#include "casepush/ros/node_parameters.h"
+
+namespace casepush {
+
+/// Owner of the case base: learns objects by exploration (action learn_object), adapts cases by the
+/// pushes of tasks, and tells everybody the current cases.
+///
+/// Learning runs in the action's own thread and drives the robot through the action execute_push.
+/// Each finished push is in the file before the next one begins.
+class LearnerNode {
+ public:
+  /// @throws InputError if the case base cannot be opened; the file is left as it was.
+  LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handle);
+
+ private:
+  using Server = actionlib::SimpleActionServer<LearnObjectAction>;
+  using Client = actionlib::SimpleActionClient<ExecutePushAction>;
+
+  /// One run of learn_object.
+  struct Run;
+
+  void onGoal(const LearnObjectGoalConstPtr& goal);
+  void learn(const LearnObjectGoal& goal, Run& run);
+  ExplorationOptions explorationOptions(const LearnObjectGoal& goal) const;
+  bool begin(Run& run);
+  bool canTeleport();
+  bool waitForExecutor();
+  /// Waits for a moment or until the condition on guarded state holds; returns whether it does.
+  bool waitForChange(const std::function<bool()>& condition);
+  /// Waits for messages until the condition holds; false if it does not in time or on cancel.
+  bool waitUntil(const std::function<bool()>& condition);
+  const ObjectState* findObject(const std::string& id) const;  ///< @pre state_mutex_ is held.
+  std::optional<ObjectState> seenObject(const std::string& id);
+
+  /// Puts object and robot where the trial starts. Returns why not, or "".
+  std::string reset(const Run& run, const Exploration::Trial& trial);
+  /// Executes a trial. Nothing if the run has to end; its result says why.
+  std::optional<PushReport> execute(Run& run, const Exploration::Trial& trial);
+  std::optional<ExecutePushResult> call(const ExecutePushGoal& goal, Run& run);
+  void store(Run& run, const Exploration::Trial& trial, const PushReport& report);
+  void publishProgress(const Run& run, const Exploration::Trial& trial);
+
+  void onObjects(const PushableObjectArray& message);
+  void onReport(const ExecutedPush& message);
+  void adaptBy(const PushReport& report);
+  bool onExport(ExportCases::Request& request, ExportCases::Response& response);
+  bool onImport(ImportCases::Request& request, ImportCases::Response& response);
+  void publishCases();
+  void publishMarkers();
+  void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  LearnerNodeParameters parameters_;
+  ros::NodeHandle handle_;
+  std::mutex base_mutex_;
+  CaseBase base_;  ///< Guarded by base_mutex_.
+
+  std::mutex state_mutex_;  ///< Guards the following.
+  std::condition_variable state_changed_;
+  std::vector<ObjectState> objects_;
+  std::string shown_object_;  ///< Instance around which cases are drawn.
+  Pose2 shown_at_;
+  bool push_done_ = false;
+
+  ros::ServiceClient set_pose_;
+  ros::Publisher cases_;
+  ros::Publisher markers_;
+  ros::Subscriber objects_subscriber_;
+  ros::Subscriber reports_subscriber_;
+  ros::ServiceServer export_;
+  ros::ServiceServer import_;
+  ros::WallTimer marker_timer_;
+  Client execute_push_;
+  Server server_;
+  Diagnostics diagnostics_;  ///< Last: its timer uses the members above.
+};
+
+}  // namespace casepush

@@ -1,0 +1,181 @@
+#include "casepush/ros/activity.h"
+
+#include <cmath>
+#include <utility>
+
+#include "casepush/ros/push_conversions.h"
+
+namespace casepush {
+namespace {
+
+// The codes of the result are those of the core.
+static_assert(PushObjectResult::SUCCEEDED == static_cast<int>(PushTaskStatus::kSucceeded));
+static_assert(PushObjectResult::CANCELLED == static_cast<int>(PushTaskStatus::kCancelled));
+static_assert(PushObjectResult::INVALID_GOAL == static_cast<int>(PushTaskStatus::kInvalidGoal));
+static_assert(PushObjectResult::NO_PLAN == static_cast<int>(PushTaskStatus::kNoPlan));
+static_assert(PushObjectResult::PLANNER_GONE == static_cast<int>(PushTaskStatus::kPlannerGone));
+static_assert(PushObjectResult::OBJECT_LOST == static_cast<int>(PushTaskStatus::kObjectLost));
+static_assert(PushObjectResult::ROBOT_LOST == static_cast<int>(PushTaskStatus::kRobotLost));
+static_assert(PushObjectResult::NO_PROGRESS == static_cast<int>(PushTaskStatus::kNoProgress));
+static_assert(PushObjectResult::TIMEOUT == static_cast<int>(PushTaskStatus::kTimeout));
+
+/// Ends a goal in the state that belongs to how its activity ended.
+template <typename GoalHandle, typename Result>
+void end(GoalHandle& goal, ActivityEnd how, bool success, const Result& result) {
+  if (how == ActivityEnd::kCancelled) {
+    goal.setCanceled(result, result.explanation);
+  } else if (success) {
+    goal.setSucceeded(result, result.explanation);
+  } else {
+    goal.setAborted(result, result.explanation);
+  }
+}
+
+std::uint32_t count(int value) { return static_cast<std::uint32_t>(value); }
+
+}  // namespace
+
+const char* toString(ExecutePush::Phase phase) {
+  switch (phase) {
+    case ExecutePush::Phase::kApproach:
+      return "approach";
+    case ExecutePush::Phase::kDock:
+      return "dock";
+    case ExecutePush::Phase::kPush:
+      return "push";
+    case ExecutePush::Phase::kRest:
+      return "rest";
+    case ExecutePush::Phase::kFinished:
+      return "finished";
+  }
+  return "unknown";
+}
+
+PushObjectActivity::PushObjectActivity(PushObjectServer::GoalHandle goal, PushTaskGoal task_goal,
+                                       RobotModel robot, PushTaskServices services,
+                                       PushTaskOptions options, ReportSink sink)
+    : goal_(std::move(goal)),
+      task_goal_(std::move(task_goal)),
+      task_(task_goal_, std::move(robot), withReports(std::move(services), std::move(sink)),
+            options) {}
+
+PushTaskServices PushObjectActivity::withReports(PushTaskServices services, ReportSink sink) {
+  services.on_report = [this, sink = std::move(sink)](const PushReport& report) {
+    last_t_squared_ = report.test.t_squared;
+    const PushTaskProgress& progress = task_.progress();
+    ReportContext context;
+    context.plan_number = progress.plans;
+    context.push_index = progress.push_index;
+    context.adapted = task_goal_.adapt && report.case_id > 0 && isObservation(report);
+    sink(report, context);
+  };
+  return services;
+}
+
+Tick PushObjectActivity::tick(const Observation& observation) {
+  if (start_stamp_s_ < 0.0) {
+    start_stamp_s_ = observation.stamp_s;
+  }
+  return task_.tick(observation);
+}
+
+void PushObjectActivity::cancel() { task_.cancel(); }
+
+std::string PushObjectActivity::goalId() const { return goal_.getGoalID().id; }
+
+std::string PushObjectActivity::describe() const { return task_.describe(); }
+
+ExecutorState PushObjectActivity::state() const {
+  const PushTaskProgress& progress = task_.progress();
+  ExecutorState state;
+  state.activity = ExecutorState::PUSHING_OBJECT;
+  state.object_id = task_goal_.object_id;
+  state.phase = progress.phase;
+  state.description = task_.describe();
+  state.push_index = count(progress.push_index);
+  state.push_count = count(progress.push_count);
+  state.pushes = count(progress.pushes);
+  state.plans = count(progress.plans);
+  state.replans = count(progress.replans);
+  state.rejected_predictions = count(progress.rejected_predictions);
+  state.distance_to_goal = progress.distance_to_goal_m;
+  state.yaw_to_goal = progress.yaw_to_goal_rad;
+  return state;
+}
+
+void PushObjectActivity::publishFeedback() {
+  const ExecutorState now = state();
+  PushObjectFeedback feedback;
+  feedback.phase = now.phase;
+  feedback.description = now.description;
+  feedback.push_index = now.push_index;
+  feedback.push_count = now.push_count;
+  feedback.pushes = now.pushes;
+  feedback.replans = now.replans;
+  feedback.deviation = last_t_squared_;
+  feedback.distance_to_goal = now.distance_to_goal;
+  feedback.yaw_to_goal = now.yaw_to_goal;
+  goal_.publishFeedback(feedback);
+}
+
+void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation, double now_s) {
+  const PushTaskProgress& progress = task_.progress();
+  PushObjectResult result;
+  result.status = how == ActivityEnd::kStopped
+                      ? static_cast<std::uint8_t>(PushObjectResult::STOPPED)
+                      : static_cast<std::uint8_t>(task_.status());
+  result.explanation = explanation.empty() ? task_.describe() : explanation;
+  result.position_error = progress.distance_to_goal_m;
+  result.yaw_error = std::abs(progress.yaw_to_goal_rad);
+  result.pushes = count(progress.pushes);
+  result.plans = count(progress.plans);
+  result.replans = count(progress.replans);
+  result.rejected_predictions = count(progress.rejected_predictions);
+  result.plan_length = progress.plan_length_m;
+  result.duration = start_stamp_s_ < 0.0 ? 0.0 : now_s - start_stamp_s_;
+  end(goal_, how, task_.status() == PushTaskStatus::kSucceeded, result);
+}
+
+ExecutePushActivity::ExecutePushActivity(ExecutePushServer::GoalHandle goal, ExecutePush push,
+                                         ReportSink sink)
+    : goal_(std::move(goal)), push_(std::move(push)), sink_(std::move(sink)) {}
+
+Tick ExecutePushActivity::tick(const Observation& observation) { return push_.tick(observation); }
+
+void ExecutePushActivity::cancel() { push_.cancel(); }
+
+std::string ExecutePushActivity::goalId() const { return goal_.getGoalID().id; }
+
+std::string ExecutePushActivity::describe() const { return push_.describe(); }
+
+ExecutorState ExecutePushActivity::state() const {
+  ExecutorState state;
+  state.activity = ExecutorState::EXECUTING_PUSH;
+  state.object_id = goal_.getGoal()->object_id;
+  state.phase = toString(push_.phase());
+  state.description = push_.describe();
+  return state;
+}
+
+void ExecutePushActivity::publishFeedback() {
+  ExecutePushFeedback feedback;
+  feedback.phase = toString(push_.phase());
+  feedback.description = push_.describe();
+  goal_.publishFeedback(feedback);
+}
+
+void ExecutePushActivity::finish(ActivityEnd how, const std::string& explanation,
+                                 double /*now_s*/) {
+  ExecutePushResult result;
+  result.explanation = explanation.empty() ? push_.describe() : explanation;
+  result.status = how == ActivityEnd::kFinished    ? ExecutePushResult::EXECUTED
+                  : how == ActivityEnd::kCancelled ? ExecutePushResult::CANCELLED
+                                                   : ExecutePushResult::STOPPED;
+  if (push_.report()) {
+    sink_(*push_.report(), ReportContext{});
+    result.report = toMessage(*push_.report());
+  }
+  end(goal_, how, how == ActivityEnd::kFinished, result);
+}
+
+}  // namespace casepush

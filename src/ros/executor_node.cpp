@@ -1,0 +1,426 @@
+#include "casepush/ros/executor_node.h"
+
+#include <geometry_msgs/Twist.h>
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "casepush/common/input_error.h"
+#include "casepush/ros/conversions.h"
+#include "casepush/ros/names.h"
+#include "casepush/ros/push_conversions.h"
+#include "casepush/ros/transforms.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kTickCheckS = 0.02;    // Wall time.
+constexpr double kTickMissingS = 0.06;  // Wall time without odometry after which a timer ticks.
+constexpr double kStatePeriodS = 0.2;
+constexpr double kJumpBackS = 0.5;
+constexpr double kLimitSlack = 1.02;
+
+/// A trivial path if the robot all but stands at the goal, which a planner would call blocked.
+std::optional<RobotPath> pathIfThere(const Pose2& map_T_robot, const Pose2& goal) {
+  constexpr double kThereM = 0.05;
+  constexpr double kThereRad = 0.1;
+  if (distance(map_T_robot, goal) > kThereM ||
+      std::abs(yawDifference(map_T_robot, goal)) > kThereRad) {
+    return std::nullopt;
+  }
+  RobotPath path;
+  path.found = true;
+  path.waypoints = {map_T_robot, goal};
+  path.length_m = distance(map_T_robot, goal);
+  return path;
+}
+
+template <typename Result, typename GoalHandle>
+void reject(GoalHandle& goal, std::uint8_t status, const std::string& explanation) {
+  Result result;
+  result.status = status;
+  result.explanation = explanation;
+  goal.setRejected(result, explanation);
+  ROS_WARN("goal rejected: %s", explanation.c_str());
+}
+
+}  // namespace
+
+ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle handle)
+    : parameters_(std::move(parameters)),
+      handle_(handle),
+      listener_(buffer_, handle, false, ros::TransportHints().tcpNoDelay()),
+      plans_(handle),
+      push_object_(
+          handle, names::kPushObjectAction,
+          [this](PushObjectServer::GoalHandle goal) { onPushObject(std::move(goal)); },
+          [this](PushObjectServer::GoalHandle goal) { onCancel(std::move(goal)); }, false),
+      execute_push_(
+          handle, names::kExecutePushAction,
+          [this](ExecutePushServer::GoalHandle goal) { onExecutePush(std::move(goal)); },
+          [this](ExecutePushServer::GoalHandle goal) { onCancel(std::move(goal)); }, false),
+      diagnostics_(handle, "executor", [this](auto& status) { reportDiagnostics(status); }),
+      watchdog_(parameters_.watchdog_s, [this] { command_.publish(geometry_msgs::Twist()); }) {
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  command_ = handle_.advertise<geometry_msgs::Twist>(names::kCommandVelocity.name,
+                                                     names::kCommandVelocity.queue_size);
+  reports_ =
+      handle_.advertise<ExecutedPush>(names::kPushReports.name, names::kPushReports.queue_size);
+  state_ = handle_.advertise<ExecutorState>(names::kExecutorState.name,
+                                            names::kExecutorState.queue_size, true);
+  octomap_subscriber_ = handle_.subscribe(names::kOctomap.name, names::kOctomap.queue_size,
+                                          &ExecutorNode::onOctomap, this);
+  cases_subscriber_ =
+      handle_.subscribe(names::kCases.name, names::kCases.queue_size, &ExecutorNode::onCases, this);
+  objects_subscriber_ =
+      handle_.subscribe(names::kObjects.name, 1, &ExecutorNode::onObjects, this, no_delay);
+  odometry_subscriber_ =
+      handle_.subscribe(names::kOdometry.name, 1, &ExecutorNode::onOdometry, this, no_delay);
+  stop_ = handle_.advertiseService(names::kStopService, &ExecutorNode::onStop, this);
+  tick_check_ = handle_.createWallTimer(ros::WallDuration(kTickCheckS),
+                                        [this](const ros::WallTimerEvent&) { checkTicks(); });
+  publishState(ros::Time::now().toSec());
+  push_object_.start();
+  execute_push_.start();
+}
+
+void ExecutorNode::onOctomap(const Octomap& message) {
+  try {
+    const auto map = std::make_shared<const Map>(fromMessage(message));
+    checker_ = std::make_shared<const PushPlanner>(
+        map, parameters_.furnishing.robot, parameters_.furnishing.models, parameters_.planner);
+  } catch (const InputError& error) {
+    ROS_ERROR("map ignored: %s", error.what());
+  }
+}
+
+void ExecutorNode::onCases(const PushCaseArray& message) {
+  try {
+    cases_ = fromMessage(message);
+  } catch (const InputError& error) {
+    ROS_ERROR("cases ignored: %s", error.what());
+  }
+}
+
+void ExecutorNode::onObjects(const PushableObjectArray& message) {
+  try {
+    objects_ = fromMessage(message);
+    objects_stamp_s_ = message.header.stamp.toSec();
+  } catch (const InputError& error) {
+    ROS_ERROR_THROTTLE(1.0, "objects ignored: %s", error.what());
+  }
+}
+
+void ExecutorNode::onOdometry(const nav_msgs::Odometry& message) {
+  const double now_s = message.header.stamp.toSec();
+  if (now_s < last_stamp_s_ - kJumpBackS) {
+    buffer_.clear();
+    objects_.clear();
+    objects_stamp_s_ = -1e9;
+    last_state_s_ = -1e9;
+    if (activity_ != nullptr) {
+      end(ActivityEnd::kStopped, "time jumped back");
+    }
+  }
+  odometry_ = message;
+  tick(now_s);
+}
+
+void ExecutorNode::checkTicks() {
+  if (activity_ == nullptr) {
+    return;
+  }
+  const double silent_s = std::chrono::duration<double>(SteadyClock::now() - last_tick_).count();
+  const double now_s = ros::Time::now().toSec();
+  if (silent_s > kTickMissingS && now_s > last_stamp_s_) {
+    tick(now_s);
+  } else if (silent_s > parameters_.dead_clock_s) {
+    end(ActivityEnd::kStopped, "time has stood still for " +
+                                   std::to_string(static_cast<int>(silent_s)) +
+                                   " s: is the simulator or the robot gone?");
+  }
+}
+
+std::string ExecutorNode::whatIsMissing() const {
+  if (checker_ == nullptr) {
+    return "there is no map yet (topic map/octomap)";
+  }
+  try {
+    robotPose(buffer_);
+  } catch (const std::exception& error) {
+    return std::string("the robot's pose is unknown (TF map -> base_link): ") + error.what();
+  }
+  return "";
+}
+
+std::vector<Case> ExecutorNode::casesOf(const std::string& model) const {
+  std::vector<Case> found;
+  std::copy_if(cases_.begin(), cases_.end(), std::back_inserter(found),
+               [&model](const Case& each) { return each.object == model; });
+  return found;
+}
+
+PushTaskGoal ExecutorNode::taskGoal(const PushObjectGoal& goal) const {
+  PushTaskGoal task;
+  task.object_id = goal.object_id;
+  task.map_T_goal = poseInMap(buffer_, goal.goal);
+  task.tolerance = goalTolerance(goal.position_tolerance, goal.yaw_tolerance);
+  if (!std::isfinite(goal.time_limit) || goal.time_limit < 0.0) {
+    throw InputError("goal: time_limit", "must be finite and not negative");
+  }
+  if (goal.time_limit > 0.0) {
+    task.time_limit_s = goal.time_limit;
+  }
+  task.adapt = goal.adapt;
+  task.seed = goal.seed;
+  return task;
+}
+
+void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
+  const PushObjectGoal& wanted = *goal.getGoal();
+  const TrackedObject* instance = parameters_.furnishing.instance(wanted.object_id);
+  if (activity_ != nullptr) {
+    return reject<PushObjectResult>(goal, PushObjectResult::BUSY, "busy: " + activity_->describe());
+  }
+  if (instance == nullptr) {
+    return reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL,
+                                    "unknown object '" + wanted.object_id + "'");
+  }
+  const std::string model = instance->model.name;
+  std::string missing = whatIsMissing();
+  if (missing.empty() && casesOf(model).empty()) {
+    missing = "there are no cases of " + model + " (topic cases); learn it first (learn_object)";
+  }
+  if (!missing.empty()) {
+    return reject<PushObjectResult>(goal, PushObjectResult::NOT_READY, missing);
+  }
+  try {
+    PushTaskServices services;
+    services.plans = &plans_;
+    services.checker = checker_.get();
+    // Keeps the checker alive, should a new map come during the task.
+    services.cases = [this, model, keep = checker_] { return casesOf(model); };
+    auto activity = std::make_unique<PushObjectActivity>(
+        goal, taskGoal(wanted), parameters_.furnishing.robot, std::move(services), parameters_.task,
+        [this](const PushReport& report, const ReportContext& context) {
+          publishReport(report, context);
+        });
+    goal.setAccepted();
+    begin(std::move(activity));
+  } catch (const InputError& error) {
+    reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL, error.what());
+  } catch (const tf2::TransformException& error) {
+    reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL, error.what());
+  }
+}
+
+ApproachPlanner ExecutorNode::approach(const std::string& object_id) const {
+  // The planner is kept alive by the lambda, should a new map come while it drives.
+  const auto plan = approachPlanner(*checker_, object_id);
+  return [plan, checker = checker_](const Observation& observation, const Pose2& goal,
+                                    double dock_direction_rad) {
+    const std::optional<RobotPath> there = pathIfThere(observation.map_T_robot, goal);
+    return there ? *there : plan(observation, goal, dock_direction_rad);
+  };
+}
+
+ExecutePush ExecutorNode::makePush(const ExecutePushGoal& goal) const {
+  const RobotModel& robot = parameters_.furnishing.robot;
+  if (goal.case_id == 0) {
+    return ExecutePush(goal.object_id, fromMessage(goal.configuration), robot,
+                       approach(goal.object_id), parameters_.task.push);
+  }
+  const auto found = std::find_if(cases_.begin(), cases_.end(),
+                                  [&goal](const Case& each) { return each.id == goal.case_id; });
+  if (found == cases_.end()) {
+    throw InputError("goal: case_id",
+                     "there is no case " + std::to_string(goal.case_id) + " (topic cases)");
+  }
+  return ExecutePush(goal.object_id, *found, robot, approach(goal.object_id),
+                     parameters_.task.push);
+}
+
+void ExecutorNode::onExecutePush(ExecutePushServer::GoalHandle goal) {
+  const ExecutePushGoal& wanted = *goal.getGoal();
+  if (activity_ != nullptr) {
+    return reject<ExecutePushResult>(goal, ExecutePushResult::BUSY,
+                                     "busy: " + activity_->describe());
+  }
+  if (parameters_.furnishing.instance(wanted.object_id) == nullptr) {
+    return reject<ExecutePushResult>(goal, ExecutePushResult::INVALID_GOAL,
+                                     "unknown object '" + wanted.object_id + "'");
+  }
+  std::string missing = whatIsMissing();
+  const bool seen = std::any_of(objects_.begin(), objects_.end(), [&wanted](const auto& each) {
+    return each.id == wanted.object_id;
+  });
+  if (missing.empty() && !seen) {
+    missing = wanted.object_id + " has not been seen (topic objects)";
+  }
+  if (!missing.empty()) {
+    return reject<ExecutePushResult>(goal, ExecutePushResult::NOT_READY, missing);
+  }
+  try {
+    auto activity = std::make_unique<ExecutePushActivity>(
+        goal, makePush(wanted), [this](const PushReport& report, const ReportContext& context) {
+          publishReport(report, context);
+        });
+    goal.setAccepted();
+    begin(std::move(activity));
+  } catch (const InputError& error) {
+    reject<ExecutePushResult>(goal, ExecutePushResult::INVALID_GOAL, error.what());
+  }
+}
+
+template <typename GoalHandle>
+void ExecutorNode::onCancel(GoalHandle goal) {
+  if (activity_ != nullptr && activity_->goalId() == goal.getGoalID().id) {
+    end(ActivityEnd::kCancelled, "");
+  }
+}
+
+bool ExecutorNode::onStop(std_srvs::Trigger::Request& /*request*/,
+                          std_srvs::Trigger::Response& response) {
+  response.success = true;
+  response.message = activity_ == nullptr ? "nothing was going on" : "stopped";
+  if (activity_ != nullptr) {
+    end(ActivityEnd::kStopped, "stopped by the service stop");
+  }
+  command_.publish(geometry_msgs::Twist());
+  return true;
+}
+
+void ExecutorNode::begin(std::unique_ptr<Activity> activity) {
+  activity_ = std::move(activity);
+  end_ = ActivityEnd::kFinished;
+  end_explanation_.clear();
+  last_tick_ = SteadyClock::now();
+  last_state_s_ = -1e9;
+  watchdog_.arm();
+}
+
+void ExecutorNode::end(ActivityEnd how, const std::string& explanation) {
+  end_ = how;
+  end_explanation_ = explanation;
+  command_.publish(geometry_msgs::Twist());
+  activity_->cancel();
+  tick(last_stamp_s_);
+  // A tick without an observation ends nothing; nobody should wait for one after a stop.
+  finish();
+}
+
+std::optional<Observation> ExecutorNode::observe(double now_s) const {
+  Observation observation;
+  observation.stamp_s = now_s;
+  try {
+    const StampedRobotPose robot = robotPose(buffer_);
+    observation.map_T_robot = robot.map_T_robot;
+    observation.robot_stamp_s = robot.stamp_s;
+    observation.robot_twist = fromMessage(odometry_.twist.twist);
+  } catch (const std::exception& error) {
+    ROS_WARN_THROTTLE(1.0, "no observation: %s", error.what());
+    return std::nullopt;
+  }
+  observation.objects = objects_;
+  return observation;
+}
+
+void ExecutorNode::tick(double now_s) {
+  last_stamp_s_ = now_s;
+  if (activity_ == nullptr) {
+    return;
+  }
+  last_tick_ = SteadyClock::now();
+  watchdog_.feed();
+  const std::optional<Observation> observation = observe(now_s);
+  if (!observation) {
+    command_.publish(geometry_msgs::Twist());
+    return;
+  }
+  const Tick result = activity_->tick(*observation);
+  command_.publish(toMessage(safeCommand(*observation, result.command.twist)));
+  if (result.status != BehaviourStatus::kRunning) {
+    finish();
+  } else if (activity_->state().phase != last_phase_ || now_s - last_state_s_ >= kStatePeriodS) {
+    publishState(now_s);
+    activity_->publishFeedback();
+  }
+}
+
+Twist2 ExecutorNode::safeCommand(const Observation& observation, const Twist2& wanted) {
+  if (end_ != ActivityEnd::kFinished) {
+    return Twist2{};
+  }
+  const double robot_age_s = observation.stamp_s - observation.robot_stamp_s;
+  const double objects_age_s = observation.stamp_s - objects_stamp_s_;
+  const bool stale = robot_age_s > parameters_.task.push.stale_robot_s ||
+                     objects_age_s > parameters_.stale_objects_s;
+  const RobotLimits& limits = parameters_.furnishing.robot.limits;
+  const bool in_bounds = wanted.isFinite() &&
+                         wanted.speed() <= limits.max_speed_mps * kLimitSlack &&
+                         std::abs(wanted.wz_rps) <= limits.max_yaw_rate_rps * kLimitSlack;
+  if (stale || !in_bounds) {
+    ++overridden_commands_;
+    ROS_WARN_THROTTLE(1.0, "the base is told to stand: %s",
+                      stale ? "poses are stale" : "a command was beyond the robot's limits");
+    return Twist2{};
+  }
+  return wanted;
+}
+
+void ExecutorNode::finish() {
+  if (activity_ == nullptr) {
+    return;
+  }
+  watchdog_.disarm();
+  command_.publish(geometry_msgs::Twist());
+  // Nothing is active any more once the result is out, so that its receiver may send a new goal.
+  const std::unique_ptr<Activity> ended = std::move(activity_);
+  last_end_ = end_explanation_.empty() ? ended->describe() : end_explanation_;
+  publishState(last_stamp_s_);
+  ended->finish(end_, end_explanation_, last_stamp_s_);
+}
+
+void ExecutorNode::publishReport(const PushReport& report, const ReportContext& context) {
+  ExecutedPush message = toMessage(report);
+  message.header.stamp = toRosTime(last_stamp_s_);
+  message.header.frame_id = names::kMapFrame;
+  message.sequence = ++report_count_;
+  message.plan_number = static_cast<std::uint32_t>(context.plan_number);
+  message.push_index = static_cast<std::uint32_t>(context.push_index);
+  message.adapted = context.adapted;
+  reports_.publish(message);
+}
+
+void ExecutorNode::publishState(double now_s) {
+  ExecutorState state;
+  if (activity_ != nullptr) {
+    state = activity_->state();
+  } else {
+    state.phase = "idle";
+    state.description = last_end_;
+  }
+  state.header.stamp = toRosTime(now_s);
+  state.header.frame_id = names::kMapFrame;
+  last_phase_ = state.phase;
+  last_state_s_ = now_s;
+  state_.publish(state);
+}
+
+void ExecutorNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::string missing = whatIsMissing();
+  if (!missing.empty()) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, missing);
+  } else {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   activity_ == nullptr ? "idle" : activity_->describe());
+  }
+  status.add("planner is alive", plans_.isAlive());
+  status.add("cases", cases_.size());
+  status.add("pushes", report_count_);
+  status.add("commands overridden with zero", overridden_commands_);
+}
+
+}  // namespace casepush

@@ -1,0 +1,456 @@
+#include "casepush/ros/learner_node.h"
+
+#include <casepush/PushCaseArray.h>
+#include <casepush/SetPoses.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "casepush/common/input_error.h"
+#include "casepush/ros/conversions.h"
+#include "casepush/ros/markers.h"
+#include "casepush/ros/names.h"
+#include "casepush/ros/push_conversions.h"
+
+namespace casepush {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+// How near the tracked pose must be to where an object was put.
+constexpr double kPlacedM = 0.05;
+constexpr double kPlacedRad = 0.1;
+constexpr std::chrono::seconds kSeenPatience(10);      // Wall time.
+constexpr std::chrono::seconds kExecutorPatience(20);  // Wall time.
+constexpr milliseconds kLook(20);
+constexpr int kRefusals = 5;  // In a row by the executor, before learning gives up.
+constexpr double kMarkersMoveM = 0.05;
+
+double secondsSince(SteadyClock::time_point start) {
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
+}  // namespace
+
+struct LearnerNode::Run {
+  std::string object_id;
+  const TrackedObject* instance = nullptr;
+  ExplorationOptions options;
+  std::unique_ptr<Exploration> exploration;
+  bool teleport = false;
+  Pose2 map_T_home;
+  int pushes = 0;
+  int refusals = 0;
+  int done_before = 0;  ///< Pushes that earlier runs had stored.
+  SteadyClock::time_point start = SteadyClock::now();
+  double start_s = 0.0;
+  LearnObjectResult result;
+
+  bool fail(std::uint8_t status, const std::string& explanation) {
+    result.status = status;
+    result.explanation = explanation;
+    return false;
+  }
+};
+
+LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handle)
+    : parameters_(std::move(parameters)),
+      handle_(handle),
+      base_(parameters_.case_base, CaseBase::Access::kCreate),
+      execute_push_(handle, names::kExecutePushAction, true),
+      server_(
+          handle, names::kLearnObjectAction,
+          [this](const LearnObjectGoalConstPtr& goal) { onGoal(goal); }, false),
+      diagnostics_(handle, "learner", [this](auto& status) { reportDiagnostics(status); }) {
+  shown_object_ = parameters_.furnishing.instances.front().id;
+  set_pose_ = handle_.serviceClient<SetPoses>(names::kSetPoseService);
+  cases_ = handle_.advertise<PushCaseArray>(names::kCases.name, names::kCases.queue_size, true);
+  markers_ = handle_.advertise<MarkerArray>(names::kCaseMarkers.name,
+                                            names::kCaseMarkers.queue_size, true);
+  objects_subscriber_ = handle_.subscribe(names::kObjects.name, 1, &LearnerNode::onObjects, this,
+                                          ros::TransportHints().tcpNoDelay());
+  reports_subscriber_ = handle_.subscribe(names::kPushReports.name, names::kPushReports.queue_size,
+                                          &LearnerNode::onReport, this);
+  export_ = handle_.advertiseService(names::kExportCasesService, &LearnerNode::onExport, this);
+  import_ = handle_.advertiseService(names::kImportCasesService, &LearnerNode::onImport, this);
+  publishCases();
+  marker_timer_ =
+      handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+        const std::optional<ObjectState> object = seenObject(shown_object_);
+        if (object && distance(object->map_T_object, shown_at_) > kMarkersMoveM) {
+          publishMarkers();
+        }
+      });
+  server_.start();
+}
+
+ExplorationOptions LearnerNode::explorationOptions(const LearnObjectGoal& goal) const {
+  ExplorationOptions options = parameters_.exploration;
+  if (goal.cases > 0) {
+    options.cases = static_cast<int>(goal.cases);
+  }
+  if (goal.practices > 0) {
+    options.practices = static_cast<int>(goal.practices);
+  }
+  options.seed = goal.seed;
+  options.validate();
+  return options;
+}
+
+void LearnerNode::onGoal(const LearnObjectGoalConstPtr& goal) {
+  Run run;
+  run.start_s = ros::Time::now().toSec();
+  try {
+    learn(*goal, run);
+  } catch (const InputError& error) {
+    run.fail(LearnObjectResult::FAILED, error.what());
+  }
+  LearnObjectResult& result = run.result;
+  result.pushes = static_cast<std::uint32_t>(run.pushes);
+  if (run.exploration != nullptr) {
+    result.discarded = static_cast<std::uint32_t>(run.exploration->discarded());
+    result.dropped = static_cast<std::uint32_t>(run.exploration->dropped());
+    const std::lock_guard<std::mutex> lock(base_mutex_);
+    result.cases = static_cast<std::uint32_t>(base_.cases(run.instance->model.name).size());
+  }
+  result.duration = ros::Time::now().toSec() - run.start_s;
+  ROS_INFO("learning %s: %s", goal->object_id.c_str(), result.explanation.c_str());
+  if (result.status == LearnObjectResult::DONE) {
+    server_.setSucceeded(result, result.explanation);
+  } else if (result.status == LearnObjectResult::CANCELLED) {
+    server_.setPreempted(result, result.explanation);
+  } else {
+    server_.setAborted(result, result.explanation);
+  }
+}
+
+void LearnerNode::learn(const LearnObjectGoal& goal, Run& run) {
+  run.object_id = goal.object_id;
+  run.instance = parameters_.furnishing.instance(goal.object_id);
+  if (run.instance == nullptr) {
+    run.fail(LearnObjectResult::INVALID_GOAL, "unknown object '" + goal.object_id + "'");
+    return;
+  }
+  try {
+    run.options = explorationOptions(goal);
+  } catch (const InputError& error) {
+    run.fail(LearnObjectResult::INVALID_GOAL, error.what());
+    return;
+  }
+  run.exploration =
+      std::make_unique<Exploration>(run.instance->model, parameters_.furnishing.robot, run.options);
+  {
+    const std::lock_guard<std::mutex> lock(base_mutex_);
+    const std::vector<Case> known = base_.cases(run.instance->model.name);
+    run.exploration->resume(known);
+    for (const Case& each : known) {
+      run.done_before += std::min(each.observation_count, run.options.practices);
+    }
+  }
+  if (!begin(run)) {
+    return;
+  }
+  while (const std::optional<Exploration::Trial> trial = run.exploration->next()) {
+    const std::optional<PushReport> report = execute(run, *trial);
+    if (!report) {
+      return;
+    }
+    ++run.pushes;
+    store(run, *trial, *report);
+  }
+  if (run.exploration->gaveUp()) {
+    run.fail(LearnObjectResult::GAVE_UP,
+             "gave up after " + std::to_string(run.exploration->discarded()) + " useless pushes");
+    return;
+  }
+  run.result.status = LearnObjectResult::DONE;
+  run.result.explanation = "knows " + std::to_string(run.options.cases) +
+                           " cases, each practised " + std::to_string(run.options.practices) +
+                           " times";
+}
+
+bool LearnerNode::begin(Run& run) {
+  if (!run.exploration->next()) {
+    return true;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(state_mutex_);
+    shown_object_ = run.object_id;
+  }
+  if (!waitForExecutor()) {
+    return run.fail(LearnObjectResult::EXECUTOR_GONE, "action execute_push does not answer");
+  }
+  run.teleport = canTeleport();
+  if (parameters_.reset == ResetMode::kTeleport && !run.teleport) {
+    return run.fail(LearnObjectResult::FAILED, "reset is teleport, but there is no service " +
+                                                   std::string(names::kSetPoseService));
+  }
+  if (!waitUntil([&] { return findObject(run.object_id) != nullptr; })) {
+    return run.fail(LearnObjectResult::FAILED,
+                    run.object_id + " has not been seen (topic objects)");
+  }
+  run.map_T_home = parameters_.home.value_or(seenObject(run.object_id)->map_T_object);
+  return true;
+}
+
+bool LearnerNode::canTeleport() {
+  return parameters_.reset != ResetMode::kDrive && set_pose_.exists();
+}
+
+const ObjectState* LearnerNode::findObject(const std::string& id) const {
+  const auto found = std::find_if(objects_.begin(), objects_.end(),
+                                  [&id](const ObjectState& each) { return each.id == id; });
+  return found == objects_.end() ? nullptr : &*found;
+}
+
+std::optional<ObjectState> LearnerNode::seenObject(const std::string& id) {
+  const std::lock_guard<std::mutex> lock(state_mutex_);
+  const ObjectState* found = findObject(id);
+  return found == nullptr ? std::nullopt : std::optional<ObjectState>(*found);
+}
+
+bool LearnerNode::waitForChange(const std::function<bool()>& condition) {
+  // Nothing of the action client is called with the mutex held: its thread takes it in callbacks.
+  std::unique_lock<std::mutex> lock(state_mutex_);
+  return state_changed_.wait_for(lock, kLook, condition);
+}
+
+bool LearnerNode::waitUntil(const std::function<bool()>& condition) {
+  const SteadyClock::time_point end = SteadyClock::now() + kSeenPatience;
+  while (!waitForChange(condition)) {
+    if (!ros::ok() || server_.isPreemptRequested() || SteadyClock::now() > end) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool LearnerNode::waitForExecutor() {
+  const SteadyClock::time_point end = SteadyClock::now() + kExecutorPatience;
+  while (!execute_push_.isServerConnected()) {
+    if (!ros::ok() || server_.isPreemptRequested() || SteadyClock::now() > end) {
+      return false;
+    }
+    waitForChange([] { return false; });
+  }
+  return true;
+}
+
+std::string LearnerNode::reset(const Run& run, const Exploration::Trial& trial) {
+  if (!run.teleport) {
+    return "";
+  }
+  SetPoses::Request request;
+  SetPoses::Response response;
+  BodyPose body;
+  body.id = run.object_id;
+  body.pose = toMessage(run.map_T_home);
+  request.bodies.push_back(body);
+  body.id = "robot";
+  body.pose = toMessage(run.map_T_home * trial.object_T_robot);
+  request.bodies.push_back(body);
+  if (!set_pose_.call(request, response)) {
+    return std::string("service ") + names::kSetPoseService + " failed";
+  }
+  if (!response.success) {
+    return response.message;
+  }
+  // Images taken before the move may still be under way: only later ones count.
+  const double moved_s = ros::Time::now().toSec();
+  const bool seen = waitUntil([&] {
+    const ObjectState* object = findObject(run.object_id);
+    return object != nullptr && object->stamp_s > moved_s && !object->moving &&
+           distance(object->map_T_object, run.map_T_home) < kPlacedM &&
+           std::abs(yawDifference(object->map_T_object, run.map_T_home)) < kPlacedRad;
+  });
+  return seen ? "" : run.object_id + " is not seen where it was put";
+}
+
+std::optional<PushReport> LearnerNode::execute(Run& run, const Exploration::Trial& trial) {
+  ExecutePushGoal goal;
+  goal.object_id = run.object_id;
+  goal.case_id = trial.case_id.value_or(0);
+  goal.configuration = toMessage(trial.configuration);
+  for (run.refusals = 0; run.refusals < kRefusals; ++run.refusals) {
+    publishProgress(run, trial);
+    const std::string problem = reset(run, trial);
+    if (server_.isPreemptRequested() || !ros::ok()) {
+      run.fail(LearnObjectResult::CANCELLED, "cancelled; finished pushes are kept");
+      return std::nullopt;
+    }
+    if (!problem.empty()) {
+      run.fail(LearnObjectResult::FAILED, problem);
+      ROS_WARN("reset: %s", problem.c_str());
+      continue;
+    }
+    const std::optional<ExecutePushResult> result = call(goal, run);
+    if (!result) {
+      return std::nullopt;
+    }
+    if (result->status == ExecutePushResult::EXECUTED) {
+      return fromMessage(result->report);
+    }
+    // The executor may not have heard of a case that was stored a moment ago.
+    run.fail(LearnObjectResult::FAILED, "execute_push: " + result->explanation);
+  }
+  return std::nullopt;
+}
+
+std::optional<ExecutePushResult> LearnerNode::call(const ExecutePushGoal& goal, Run& run) {
+  {
+    const std::lock_guard<std::mutex> lock(state_mutex_);
+    push_done_ = false;
+  }
+  execute_push_.sendGoal(goal, [this](const actionlib::SimpleClientGoalState& /*state*/,
+                                      const ExecutePushResultConstPtr& /*result*/) {
+    const std::lock_guard<std::mutex> lock(state_mutex_);
+    push_done_ = true;
+    state_changed_.notify_all();
+  });
+  while (!waitForChange([this] { return push_done_; })) {
+    if (!ros::ok() || server_.isPreemptRequested()) {
+      execute_push_.cancelGoal();
+      run.fail(LearnObjectResult::CANCELLED, "cancelled; finished pushes are kept");
+      return std::nullopt;
+    }
+    if (!execute_push_.isServerConnected()) {
+      run.fail(LearnObjectResult::EXECUTOR_GONE, "action execute_push went away");
+      return std::nullopt;
+    }
+  }
+  const ExecutePushResultConstPtr result = execute_push_.getResult();
+  return result == nullptr ? ExecutePushResult() : *result;
+}
+
+void LearnerNode::store(Run& run, const Exploration::Trial& trial, const PushReport& report) {
+  {
+    const std::lock_guard<std::mutex> lock(base_mutex_);
+    std::optional<Case> updated;
+    if (trial.case_id && isObservation(report)) {
+      updated =
+          base_.observe(*trial.case_id, report.recorded.start_outcome.mean, parameters_.floor);
+    }
+    switch (run.exploration->judge(report, updated)) {
+      case Exploration::Verdict::kStoreCase:
+        run.exploration->stored(base_.add(report.recorded));
+        break;
+      case Exploration::Verdict::kDropCase:
+        base_.remove(*trial.case_id);
+        break;
+      case Exploration::Verdict::kObserve:
+        break;
+      case Exploration::Verdict::kDiscard:
+        ROS_DEBUG("push discarded: %s %s", toString(report.outcome), report.explanation.c_str());
+        return;
+    }
+  }
+  publishCases();
+}
+
+void LearnerNode::publishProgress(const Run& run, const Exploration::Trial& trial) {
+  LearnObjectFeedback feedback;
+  feedback.case_number = static_cast<std::uint32_t>(trial.case_number);
+  feedback.case_count = static_cast<std::uint32_t>(run.options.cases);
+  feedback.practice_number = static_cast<std::uint32_t>(trial.practice_number);
+  feedback.practice_count = static_cast<std::uint32_t>(run.options.practices);
+  feedback.pushes = static_cast<std::uint32_t>(run.pushes);
+  feedback.discarded = static_cast<std::uint32_t>(run.exploration->discarded());
+  const int done = (trial.case_number - 1) * run.options.practices + trial.practice_number - 1;
+  const int left = run.options.cases * run.options.practices - done;
+  const int done_now = done - run.done_before;
+  feedback.time_left = done_now > 0 ? secondsSince(run.start) / done_now * left : -1.0;
+  feedback.phase = run.teleport ? "reset" : "approach";
+  server_.publishFeedback(feedback);
+}
+
+void LearnerNode::onObjects(const PushableObjectArray& message) {
+  try {
+    std::vector<ObjectState> objects = fromMessage(message);
+    const std::lock_guard<std::mutex> lock(state_mutex_);
+    objects_ = std::move(objects);
+    state_changed_.notify_all();
+  } catch (const InputError& error) {
+    ROS_ERROR_THROTTLE(1.0, "objects ignored: %s", error.what());
+  }
+}
+
+void LearnerNode::onReport(const ExecutedPush& message) {
+  if (!message.adapted || message.case_id == 0) {
+    return;
+  }
+  try {
+    adaptBy(fromMessage(message));
+    publishCases();
+  } catch (const InputError& error) {
+    ROS_ERROR("push report %u is not learnt from: %s", message.sequence, error.what());
+  }
+}
+
+void LearnerNode::adaptBy(const PushReport& report) {
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  const Case known = base_.get(report.case_id);
+  const double weight =
+      adaptationWeight(report.test.p_value, parameters_.adaptation_k, known.effective_count);
+  base_.adapt(report.case_id, report.recorded.start_outcome.mean, weight, parameters_.floor);
+}
+
+bool LearnerNode::onExport(ExportCases::Request& request, ExportCases::Response& response) {
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  try {
+    base_.exportYaml(request.file);
+    response.count = static_cast<std::uint32_t>(base_.cases().size());
+    response.success = true;
+  } catch (const InputError& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+bool LearnerNode::onImport(ImportCases::Request& request, ImportCases::Response& response) {
+  try {
+    const std::lock_guard<std::mutex> lock(base_mutex_);
+    response.count = static_cast<std::uint32_t>(base_.importYaml(request.file));
+    response.success = true;
+  } catch (const InputError& error) {
+    response.message = error.what();
+  }
+  publishCases();
+  return true;
+}
+
+void LearnerNode::publishCases() {
+  {
+    const std::lock_guard<std::mutex> lock(base_mutex_);
+    cases_.publish(toMessage(base_.cases(), ros::Time::now().toSec()));
+  }
+  publishMarkers();
+}
+
+void LearnerNode::publishMarkers() {
+  Pose2 map_T_object;
+  std::string model;
+  {
+    const std::lock_guard<std::mutex> lock(state_mutex_);
+    const ObjectState* object = findObject(shown_object_);
+    if (object == nullptr) {
+      return;
+    }
+    map_T_object = object->map_T_object;
+    model = object->model;
+    shown_at_ = map_T_object;
+  }
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  markers_.publish(caseMarkers(base_.cases(model), map_T_object));
+}
+
+void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, server_.isActive() ? "learning" : "idle");
+  status.add("case base", parameters_.case_base);
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  status.add("cases", base_.cases().size());
+}
+
+}  // namespace casepush
