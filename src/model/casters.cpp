@@ -80,7 +80,8 @@ Caster makeCaster(const Mechanism& mechanism, int wheel_joint, const std::string
   }
   if (axisKind(mechanism, caster.swivel_joint) != AxisKind::kUpright ||
       movingJointAbove(mechanism, mechanism.joints[caster.swivel_joint].parent_link) >= 0) {
-    throw InputError(where, "hangs on more than one swivel; must be on none or on a single one");
+    throw InputError(where,
+                     "hangs on more than one moving joint; must hang on none or on one swivel");
   }
   const Eigen::Vector3d offset = mechanism.root_T_link(wheel_joint + 1).translation() -
                                  mechanism.root_T_link(caster.swivel_joint + 1).translation();

@@ -58,8 +58,8 @@ std::filesystem::path Catalog::find(const std::string& kind, const std::string& 
       list += (list.empty() ? "" : ", ") + name;
     }
     throw InputError("config/" + kind, "there is none named '" + name_or_file +
-                               "'; known are: " + (list.empty() ? "none" : list) + "; or give a " +
-                               extension + " file");
+                                           "'; known are: " + (list.empty() ? "none" : list) +
+                                           "; or give a " + extension + " file");
   }
   return share_ / "config" / kind / (name_or_file + extension);
 }

@@ -4,8 +4,8 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <fstream>
+#include <iterator>
 #include <mutex>
-#include <sstream>
 #include <string>
 
 #include "casepush/common/input_error.h"
@@ -45,11 +45,10 @@ class ParserLog : public console_bridge::OutputHandler {
 
 std::string readFile(const std::filesystem::path& path) {
   std::ifstream file(path);
-  std::ostringstream text;
-  if (!std::filesystem::is_regular_file(path) || !(text << file.rdbuf())) {
+  if (!file || std::filesystem::is_directory(path)) {
     throw InputError(path.string(), "cannot be read; is the path right, and is it a URDF file?");
   }
-  return text.str();
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace

@@ -1,0 +1,94 @@
+#include "casepush/model/robot_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/input_error_text.h"
+#include "common/temporary_folder.h"
+#include "model/small_models.h"
+
+namespace casepush {
+namespace {
+
+class LoadRobotModel : public testing::Test {
+ protected:
+  RobotModel load(const std::string& urdf, const std::string& yaml) {
+    folder_.write("bot.yaml", yaml);
+    return loadRobotModel(folder_.write("bot.urdf", urdf));
+  }
+
+  std::string yamlError(const std::string& from, const std::string& to) {
+    const std::string text =
+        inputErrorText([&] { load(smallRobotUrdf(), replaced(smallRobotYaml(), from, to)); });
+    const std::string prefix = (folder_.path() / "bot.yaml: ").string();
+    return text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LoadRobotModel, readsLimitsSolidAndCameras) {
+  const RobotModel bot = load(smallRobotUrdf(), smallRobotYaml());
+  EXPECT_EQ(bot.name, "bot");
+  EXPECT_EQ(bot.limits.max_force_n, 150.0);
+  EXPECT_EQ(bot.limits.max_yaw_acceleration_rps2, 2.0);
+  ASSERT_EQ(bot.solid.size(), 1U);
+  EXPECT_EQ(bot.solid[0].part, "base_link");
+  EXPECT_NEAR(bot.radius_m, 0.3, 1e-5);
+  ASSERT_EQ(bot.cameras.size(), 1U);
+  const CameraModel& camera = bot.cameras[0];
+  EXPECT_EQ(camera.name, "left");
+  EXPECT_NEAR(camera.horizontal_fov_rad, M_PI / 2, 1e-12);
+  EXPECT_NEAR(camera.focalPx(), 320.0, 1e-9);
+  EXPECT_NEAR(camera.max_view_angle_rad, 70.0 * M_PI / 180.0, 1e-12);
+}
+
+TEST_F(LoadRobotModel, turnsTheHousingIntoTheOpticalFrame) {
+  const CameraModel camera = load(smallRobotUrdf(), smallRobotYaml()).cameras[0];
+  const Eigen::Matrix3d rotation = camera.base_T_camera.linear();
+  const double c = std::cos(M_PI / 6);
+  const double s = std::sin(M_PI / 6);
+  // Looking left (+y) and 30 degrees down.
+  EXPECT_LT((rotation.col(2) - Eigen::Vector3d(0, c, -s)).norm(), 1e-12) << "forward";
+  EXPECT_LT((rotation.col(0) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12) << "right";
+  EXPECT_LT((rotation.col(1) - Eigen::Vector3d(0, -s, -c)).norm(), 1e-12) << "down";
+  EXPECT_EQ(camera.base_T_camera.translation(), Eigen::Vector3d(0, 0.3, 0.5));
+}
+
+TEST_F(LoadRobotModel, refusesMovingJoints) {
+  std::string urdf = smallCartUrdf();
+  EXPECT_EQ(inputErrorText([&] { load(urdf, smallRobotYaml()); }),
+            (folder_.path() / "bot.urdf").string() +
+                ": joint 'fixed_axle': moves; a robot's joints must all be fixed");
+}
+
+TEST_F(LoadRobotModel, refusesARobotWithoutShape) {
+  std::string urdf = smallRobotUrdf();
+  const std::string end = "</collision>";
+  urdf.erase(urdf.find("<collision>"), urdf.find(end) + end.size() - urdf.find("<collision>"));
+  EXPECT_EQ(inputErrorText([&] { load(urdf, smallRobotYaml()); }),
+            (folder_.path() / "bot.urdf").string() + ": has no collision shapes");
+}
+
+TEST_F(LoadRobotModel, refusesBadYaml) {
+  EXPECT_EQ(yamlError("max_force_n: 150", "max_force_n: 0"),
+            "limits.max_force_n: is 0; must be a number in [1, 5000]");
+  EXPECT_EQ(yamlError("  max_torque_nm: 40\n", ""),
+            "limits.max_torque_nm: is missing; must be a number in [0.1, 5000]");
+  EXPECT_EQ(yamlError("max_torque_nm: 40", "max_torque_nm: 40\n  max_jerk: 1"),
+            "limits: unknown key(s): max_jerk");
+  EXPECT_EQ(yamlError("dropout: 0.02", "dropout: 1.5"),
+            "cameras[0].dropout: is 1.5; must be a number in [0, 1]");
+  EXPECT_EQ(yamlError("dropout: 0.02", "dropout: 0.02\n    lens: wide"),
+            "cameras[0]: unknown key(s): lens");
+  EXPECT_EQ(yamlError("horizontal_fov_deg: 90", "horizontal_fov_deg: 180"),
+            "cameras[0].horizontal_fov_deg: is 180; must be a number in [1, 170]");
+  const std::string yaml = smallRobotYaml();
+  const std::string camera = yaml.substr(yaml.find("  - name"));
+  EXPECT_EQ(yamlError(camera, camera + camera), "cameras[1].name: left is taken by another camera");
+  EXPECT_EQ(yamlError("cameras:\n" + camera, ""), "cameras: must list at least one camera");
+}
+
+}  // namespace
+}  // namespace casepush

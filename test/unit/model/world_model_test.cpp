@@ -1,0 +1,118 @@
+#include "casepush/model/world_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/input_error_text.h"
+#include "common/temporary_folder.h"
+#include "model/small_models.h"
+
+namespace casepush {
+namespace {
+
+class LoadWorldModel : public testing::Test {
+ protected:
+  WorldModel load(const std::string& yaml) {
+    return loadWorldModel(folder_.write("room.yaml", yaml));
+  }
+
+  std::string errorWith(const std::string& from, const std::string& to) {
+    const std::string text = inputErrorText([&] { load(replaced(smallWorldYaml(), from, to)); });
+    const std::string prefix = (folder_.path() / "room.yaml: ").string();
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    return text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LoadWorldModel, readsEverything) {
+  const WorldModel room = load(smallWorldYaml());
+  EXPECT_EQ(room.name, "room");
+  EXPECT_EQ(room.min_m, Eigen::Vector2d(-2, -3));
+  EXPECT_EQ(room.max_m, Eigen::Vector2d(4, 5));
+  EXPECT_EQ(room.floor.friction, 0.7);
+  EXPECT_EQ(room.floor.rolling_lever_arm_m, 0.003);
+  EXPECT_EQ(room.robot, "bot");
+  EXPECT_NEAR(room.map_T_robot.yaw(), M_PI / 2, 1e-12);
+  ASSERT_EQ(room.objects.size(), 2U);
+  EXPECT_EQ(room.objects[0].id, "cart_1");
+  EXPECT_EQ(room.objects[0].model, "cart");
+  EXPECT_EQ(room.objects[0].tag_offset, 10);
+  EXPECT_NEAR(room.objects[0].map_T_object.yaw(), -M_PI / 4, 1e-12);
+  EXPECT_EQ(room.objects[1].tag_offset, 0);
+  ASSERT_TRUE(room.goal);
+  EXPECT_EQ(room.goal->x(), 3.0);
+  ASSERT_EQ(room.boxes.size(), 2U);
+  EXPECT_EQ(room.boxes[0].box.size_m, Eigen::Vector3d(6, 0.1, 1));
+  EXPECT_LT((room.boxes[1].map_T_box * Eigen::Vector3d(1, 0, 0) -
+             Eigen::Vector3d(std::cos(M_PI / 6), 0.5, 0.7))
+                .norm(),
+            1e-12);
+}
+
+TEST_F(LoadWorldModel, needsNeitherGoalNorFloorNorFurniture) {
+  const WorldModel room =
+      load("bounds: {min: [0, 0], max: [1, 1]}\nrobot: {model: bot, xy: [0.5, 0.5], yaw_deg: 0}\n");
+  EXPECT_FALSE(room.goal);
+  EXPECT_TRUE(room.objects.empty());
+  EXPECT_EQ(room.floor.friction, Floor().friction);
+}
+
+TEST_F(LoadWorldModel, containsItsBordersAndNothingThatIsNotFinite) {
+  const WorldModel room = load(smallWorldYaml());
+  EXPECT_TRUE(room.contains(Pose2(-2, 5, 0)));
+  EXPECT_FALSE(room.contains(Pose2(-2.001, 5, 0)));
+  EXPECT_FALSE(room.contains(Pose2(0, 5.001, 0)));
+  EXPECT_FALSE(room.contains(Pose2(std::nan(""), 0, 0)));
+  EXPECT_FALSE(room.contains(Pose2(0, 0, std::nan(""))));
+}
+
+TEST_F(LoadWorldModel, refusesPosesOutside) {
+  EXPECT_EQ(errorWith("xy: [1, 2]", "xy: [1, 7]"),
+            "objects[0].xy: (1, 7) is outside of the world; must be within (-2, -3) to (4, 5)");
+  EXPECT_EQ(errorWith("xy: [-1, 0]", "xy: [-9, 0]"),
+            "robot.xy: (-9, 0) is outside of the world; must be within (-2, -3) to (4, 5)");
+  EXPECT_EQ(errorWith("xy: [3, 3]", "xy: [30, 3]"),
+            "goal.xy: (30, 3) is outside of the world; must be within (-2, -3) to (4, 5)");
+}
+
+TEST_F(LoadWorldModel, refusesNamesTakenTwice) {
+  EXPECT_EQ(errorWith("id: cart_2", "id: cart_1"),
+            "objects[1].id: 'cart_1' is taken; names must differ");
+  EXPECT_EQ(errorWith("id: cart_2", "id: robot"),
+            "objects[1].id: 'robot' is taken; names must differ");
+  EXPECT_EQ(errorWith("id: cart_2", "id: wall"),
+            "objects[1].id: 'wall' is taken; names must differ");
+  EXPECT_EQ(errorWith("name: table", "name: wall"),
+            "boxes[1].name: 'wall' is taken; names must differ");
+}
+
+TEST_F(LoadWorldModel, refusesBadNumbersAndUnknownKeys) {
+  EXPECT_EQ(errorWith("xy: [1, 2]", "xy: [nan, 2]"),
+            "objects[0].xy: is not finite; must be a list of 2 finite numbers");
+  EXPECT_EQ(errorWith("yaw_deg: -45", "yaw_deg: nan"),
+            "objects[0].yaw_deg: is not finite; must be a number in [-360, 360]");
+  EXPECT_EQ(errorWith("friction: 0.7", "friction: -1"),
+            "floor.friction: is -1; must be a number in [0.01, 2]");
+  EXPECT_EQ(errorWith("size_m: [1, 2, 0.1]", "size_m: [1, 0, 0.1]"),
+            "boxes[1].size_m: must be above 0 and at most 1000 m");
+  EXPECT_EQ(errorWith("max: [4, 5]", "max: [4, -5]"),
+            "bounds: max must exceed min by 0.5 m, both within 1000 m of the origin");
+  EXPECT_EQ(errorWith("tag_offset: 10", "tag_ofset: 10"), "objects[0]: unknown key(s): tag_ofset");
+  EXPECT_EQ(errorWith("goal:", "gaol:"), "unknown key(s): gaol");
+  EXPECT_EQ(errorWith("robot: {model: bot, xy: [-1, 0], yaw_deg: 90}\n", ""),
+            "robot: is missing; must be a map");
+}
+
+TEST_F(LoadWorldModel, refusesFilesThatCannotBeReadOrAreCutOff) {
+  const std::string yaml = smallWorldYaml();
+  EXPECT_NE(inputErrorText([&] { load(yaml.substr(0, yaml.size() - 20)); }), "");
+  EXPECT_NE(inputErrorText([&] { load(""); }), "");
+  EXPECT_EQ(inputErrorText([] { loadWorldModel("/no/such.yaml"); }),
+            "/no/such.yaml: cannot be read; is the path right?");
+}
+
+}  // namespace
+}  // namespace casepush
