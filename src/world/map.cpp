@@ -120,7 +120,11 @@ void Map::save(const std::filesystem::path& file) const {
   std::filesystem::path draft = file;
   draft += ".part";
   std::ofstream stream(draft, std::ios::binary);
-  const bool good = stream && compact(*tree_).writeBinaryConst(stream) && stream.flush();
+  // OctoMap's own writeBinary() chats on stderr.
+  const octomap::OcTree tree = compact(*tree_);
+  stream << "# Octomap OcTree binary file\nid OcTree\nsize " << tree.size() << "\nres "
+         << tree.getResolution() << "\ndata\n";
+  const bool good = stream && (empty() || tree.writeBinaryData(stream)) && stream.flush();
   stream.close();
   std::error_code error;
   if (good) std::filesystem::rename(draft, file, error);
