@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,11 @@
 namespace casepush {
 
 struct RobotPathOptions {
-  double margin_m = 0.04;      ///< Kept from everything while driving freely.
-  double dock_margin_m = 0.01; ///< Kept while docking at an object's side.
+  double margin_m = 0.04;       ///< Kept from everything while driving freely.
+  double dock_margin_m = 0.01;  ///< Kept while docking at an object's side.
+  double contact_tolerance_m =
+      0.01;  ///< The goal pose may overlap a movable object this deep: poses
+             ///< are estimates, and pushes start at the object's side.
 };
 
 struct RobotPath {
@@ -22,14 +26,22 @@ struct RobotPath {
 
 /// Finds paths of the robot among the map and objects at their true 3-D shape.
 ///
-/// The robot is round from above at each height while it travels (omnidirectional); leaving an
-/// object's side (undocking) and reaching the next push's start (docking) are straight motions
-/// checked with its true shape. Grid A* with line-of-sight shortcuts; deterministic.
+/// The robot is round from above at each height while it travels (omnidirectional), so that the
+/// heading does not matter; leaving an object's side (undocking) and reaching the next push's start
+/// (docking) are straight motions checked with its true shape, with fixed headings. Between
+/// waypoints the robot moves straight and turns evenly; it turns to the goal's heading while
+/// travelling.
+///
+/// Grid A* on the map's cells with line-of-sight shortcuts, preferring some clearance;
+/// deterministic. The margin is kept at the centres of the cells that are passed; nothing is
+/// touched in between. Thread safety: plan() is reentrant. Copies share a cache of the last map's
+/// clearance.
 class RobotPathPlanner {
  public:
   RobotPathPlanner(RobotModel robot, RobotPathOptions options);
 
-  /// @param checker  With every object that stands in the way set as an obstacle, also the one to be
+  /// @param checker  With every object that stands in the way set as an obstacle, also the one to
+  /// be
   ///   pushed next.
   /// @param dock_direction_rad  Heading in the map of the straight motion that ends in `goal`
   ///   (the direction of the push).
@@ -37,8 +49,11 @@ class RobotPathPlanner {
                  double dock_direction_rad) const;
 
  private:
+  struct Cache;
+
   RobotModel robot_;
   RobotPathOptions options_;
+  std::shared_ptr<Cache> cache_;
 };
 
 }  // namespace casepush

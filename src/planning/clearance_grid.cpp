@@ -1,0 +1,166 @@
+#include "clearance_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "casepush/world/shadow.h"
+#include "distance_transform.h"
+
+namespace casepush {
+namespace {
+
+constexpr int kSlices = 64;
+
+/// Bits of the slices that a disc reaches into.
+std::uint64_t slices(const TravelDisc& disc, double slice_m) {
+  const auto index = [&](double z_m) {
+    return static_cast<int>(std::clamp(std::floor(z_m / slice_m), 0.0, kSlices - 1.0));
+  };
+  const int first = index(disc.low_m + kContactTolerance_m);
+  const int last = std::max(first, index(disc.high_m - kContactTolerance_m));
+  return (~std::uint64_t{0} << first) & (~std::uint64_t{0} >> (kSlices - 1 - last));
+}
+
+/// Largest distance of the shadow from the frame's origin.
+double reach(const Shadow& shadow) {
+  double result = 0.0;
+  for (int i = 0; i < shadow.count; ++i) result = std::max(result, shadow.points[i].norm());
+  return result + shadow.radius_m;
+}
+
+}  // namespace
+
+std::vector<TravelDisc> travelDiscs(const Solid& solid, double margin_m) {
+  const std::vector<ConvexPart> parts = convexParts(solid);
+  std::vector<double> ends;
+  for (const ConvexPart& part : parts) {
+    ends.push_back(part.heights().low_m);
+    ends.push_back(part.heights().high_m);
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<TravelDisc> discs;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    double radius_m = 0.0;
+    for (const ConvexPart& part : parts) {
+      const Shadow shadow = part.shadow(ends[i - 1], ends[i]);
+      if (!shadow.empty()) radius_m = std::max(radius_m, reach(shadow) + margin_m);
+    }
+    if (radius_m <= 0.0) continue;
+    const bool continues =
+        !discs.empty() && discs.back().high_m == ends[i - 1] && discs.back().radius_m == radius_m;
+    if (continues) {
+      discs.back().high_m = ends[i];
+    } else {
+      discs.push_back({ends[i - 1], ends[i], radius_m});
+    }
+  }
+  return discs;
+}
+
+ClearanceGrid::ClearanceGrid(const CollisionChecker::Columns& columns,
+                             const std::vector<TravelDisc>& discs)
+    : origin_m_(columns.origin_m),
+      resolution_m_(columns.resolution_m),
+      width_(columns.width),
+      height_(columns.height),
+      clearance_m_(columns.bits.size()) {
+  for (int cell = 0; cell < size(); ++cell) {
+    const int x = cell % width_;
+    const int y = cell / width_;
+    const int border = std::min({x, y, width_ - 1 - x, height_ - 1 - y});
+    clearance_m_[cell] = static_cast<float>((border + 0.5) * resolution_m_);
+  }
+  double widest_m = 0.0;
+  for (const TravelDisc& disc : discs) widest_m = std::max(widest_m, disc.radius_m);
+  for (float& value : clearance_m_) value -= static_cast<float>(widest_m);
+  std::vector<std::uint8_t> occupied(columns.bits.size());
+  for (const TravelDisc& disc : discs) {
+    const std::uint64_t mask = slices(disc, columns.slice_m);
+    std::transform(columns.bits.begin(), columns.bits.end(), occupied.begin(),
+                   [mask](std::uint64_t bits) { return (bits & mask) != 0; });
+    const std::vector<float> distance = distanceToSquares(occupied, width_, height_);
+    for (std::size_t i = 0; i < distance.size(); ++i) {
+      const double clearance = distance[i] * resolution_m_ - disc.radius_m;
+      clearance_m_[i] = std::min(clearance_m_[i], static_cast<float>(clearance));
+    }
+  }
+}
+
+void ClearanceGrid::add(const PlacedSolid& placed, const std::vector<TravelDisc>& discs,
+                        double range_m) {
+  for (const ConvexPart& part : convexParts(placed.solid)) {
+    for (const TravelDisc& disc : discs) {
+      const Shadow own = part.shadow(disc.low_m, disc.high_m);
+      if (own.empty()) continue;
+      const Shadow shadow = transformed(placed.map_T_solid, own);
+      Eigen::Array2d low = shadow.points[0];
+      Eigen::Array2d high = low;
+      for (int i = 1; i < shadow.count; ++i) {
+        low = low.min(shadow.points[i].array());
+        high = high.max(shadow.points[i].array());
+      }
+      const double grown_m = shadow.radius_m + disc.radius_m + range_m;
+      low = ((low - grown_m - origin_m_.array()) / resolution_m_).max(0.0);
+      high = (high + grown_m - origin_m_.array()) / resolution_m_;
+      const int x1 = static_cast<int>(std::min(high.x(), width_ - 1.0));
+      const int y1 = static_cast<int>(std::min(high.y(), height_ - 1.0));
+      if (high.x() < 0.0 || high.y() < 0.0) continue;
+      for (int y = static_cast<int>(low.y()); y <= y1; ++y) {
+        for (int x = static_cast<int>(low.x()); x <= x1; ++x) {
+          const int cell = y * width_ + x;
+          const double clearance = separation(shadow, centre(cell)) - disc.radius_m;
+          clearance_m_[cell] = std::min(clearance_m_[cell], static_cast<float>(clearance));
+        }
+      }
+    }
+  }
+}
+
+int ClearanceGrid::cell(const Eigen::Vector2d& point_m) const {
+  const Eigen::Vector2d at = (point_m - origin_m_) / resolution_m_;
+  if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < width_ && at.y() < height_)) return -1;
+  return static_cast<int>(at.y()) * width_ + static_cast<int>(at.x());
+}
+
+Eigen::Vector2d ClearanceGrid::centre(int cell) const {
+  return origin_m_ + resolution_m_ * Eigen::Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
+}
+
+float ClearanceGrid::clearanceAlong(const Eigen::Vector2d& from_m,
+                                    const Eigen::Vector2d& to_m) const {
+  // Walks from border to border of the cells (Amanatides and Woo, 1987). Where the line passes a
+  // corner exactly, it goes on in the opposite cell: a diagonal step touches only two cells.
+  constexpr double kSameInstant = 1e-9;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const int end = cell(to_m);
+  int current = cell(from_m);
+  if (end < 0 || current < 0) return -std::numeric_limits<float>::infinity();
+  const Eigen::Vector2d start = (from_m - origin_m_) / resolution_m_;
+  const Eigen::Vector2d along = (to_m - from_m) / resolution_m_;
+  int step[2];
+  double next[2];
+  double period[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    step[axis] = along[axis] > 0.0 ? 1 : -1;
+    period[axis] = along[axis] == 0.0 ? kInfinity : std::abs(1.0 / along[axis]);
+    const double within = start[axis] - std::floor(start[axis]);
+    const double ahead = along[axis] > 0.0 ? 1.0 - within : within;
+    next[axis] = along[axis] == 0.0 ? kInfinity : ahead * period[axis];
+  }
+  float least = std::min(clearance_m_[current], clearance_m_[end]);
+  while (current != end && std::min(next[0], next[1]) <= 1.0) {
+    const double earliest = std::min(next[0], next[1]);
+    for (int axis = 0; axis < 2; ++axis) {
+      if (next[axis] > earliest + kSameInstant) continue;
+      current += axis == 0 ? step[0] : step[1] * width_;
+      next[axis] += period[axis];
+    }
+    // A line that ends on the grid's border may seem to cross it, by rounding.
+    if (current < 0 || current >= size()) break;
+    least = std::min(least, clearance_m_[current]);
+  }
+  return least;
+}
+
+}  // namespace casepush

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "casepush/world/collision_checker.h"
+
+namespace casepush {
+
+/// The robot at some heights, whichever way it faces: a disc about its origin.
+struct TravelDisc {
+  double low_m;
+  double high_m;
+  double radius_m;
+};
+
+/// A disc for each height interval between the ends of the solid's parts, grown by `margin_m`.
+std::vector<TravelDisc> travelDiscs(const Solid& solid, double margin_m);
+
+/// For each cell's centre, how far the stack of discs is from touching anything [m].
+class ClearanceGrid {
+ public:
+  /// Free distance in the map alone: exact between a cell's centre and the occupied cells' squares
+  /// in the height slices that a disc reaches into, and the map's border.
+  ClearanceGrid(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs);
+
+  /// Lowers the clearance around a solid, exactly up to `range_m`, above which it does not matter.
+  void add(const PlacedSolid& placed, const std::vector<TravelDisc>& discs, double range_m);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int size() const { return width_ * height_; }
+  double resolution() const { return resolution_m_; }
+  float clearance(int cell) const { return clearance_m_[cell]; }
+
+  /// Index of the cell that holds the point; -1 outside.
+  int cell(const Eigen::Vector2d& point_m) const;
+  Eigen::Vector2d centre(int cell) const;
+
+  /// Smallest clearance of the cells that the straight line passes; -infinity if it leaves the
+  /// grid.
+  float clearanceAlong(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) const;
+
+ private:
+  Eigen::Vector2d origin_m_;
+  double resolution_m_;
+  int width_;
+  int height_;
+  std::vector<float> clearance_m_;
+};
+
+}  // namespace casepush

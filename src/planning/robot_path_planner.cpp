@@ -1,0 +1,286 @@
+#include "casepush/planning/robot_path_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <mutex>
+#include <sstream>
+
+#include "casepush/common/input_error.h"
+#include "clearance_grid.h"
+#include "grid_search.h"
+#include "straight_motion.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kDirect_m = 0.5;  // Try the straight motion first if the goal is this near.
+constexpr double kMaxDock_m = 1.0;
+constexpr double kMaxUndock_m = 1.2;
+constexpr double kObstacleRange_m = 0.3;  // Clearance around objects is exact up to this.
+constexpr int kUndockDirections = 24;
+
+/// All that one query needs. Grid, footprints and checker outlive it.
+struct Query {
+  const CollisionChecker& checker;
+  const ClearanceGrid& grid;
+  const GridSearch& search;
+  const Footprint& plain;    ///< The robot's true shape.
+  const Footprint& docking;  ///< Grown by the docking margin.
+};
+
+std::string at(const Pose2& pose) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << "(" << pose.x() << ", " << pose.y() << ")";
+  return text.str();
+}
+
+RobotPath failure(const std::string& explanation) {
+  RobotPath path;
+  path.explanation = explanation;
+  return path;
+}
+
+Pose2 shifted(const Pose2& pose, double direction_rad, double length_m) {
+  return {pose.x() + length_m * std::cos(direction_rad),
+          pose.y() + length_m * std::sin(direction_rad), pose.yaw()};
+}
+
+/// Walks from the goal straight back, against the direction of docking, to poses from which the
+/// robot can travel.
+class DockLine {
+ public:
+  DockLine(const Query& query, const Pose2& goal, double direction_rad)
+      : query_(query),
+        motion_(query.checker, query.docking, {query.checker, query.docking, goal}),
+        goal_(goal),
+        direction_rad_(direction_rad),
+        current_(goal) {}
+
+  /// The next pose in another cell than the last one; nothing if the line is blocked or long
+  /// enough.
+  std::optional<Pose2> next() {
+    const double step_m = query_.grid.resolution() / 2.0;
+    while (back_m_ <= kMaxDock_m && !block_) {
+      const Pose2 pose = shifted(goal_, direction_rad_, -back_m_);
+      block_ = motion_.firstBlock(current_, pose);
+      if (block_) break;
+      current_ = pose;
+      back_m_ += step_m;
+      const int cell = query_.grid.cell(pose.position());
+      if (cell == last_cell_ || !query_.search.isFree(cell)) continue;
+      last_cell_ = cell;
+      return pose;
+    }
+    return std::nullopt;
+  }
+
+  bool foundAny() const { return last_cell_ >= 0; }
+
+  std::string explanation() const {
+    if (block_) {
+      return "no room to dock: the straight way to the dock pose is blocked by " +
+             describe(*block_, query_.checker.obstacles());
+    }
+    return "no room to dock: no free place within 1 m straight behind the dock pose " + at(goal_);
+  }
+
+ private:
+  const Query& query_;
+  StraightMotion motion_;
+  Pose2 goal_;
+  double direction_rad_;
+  Pose2 current_;
+  double back_m_ = 0.0;
+  int last_cell_ = -1;
+  std::optional<Contact> block_;
+};
+
+/// Nearest pose, in a straight line from `start`, in a cell that is marked in `wanted`; of those
+/// equally near the one with most clearance. The motion comes no closer to anything than the start
+/// is: within the docking margin if possible, else where it overlaps.
+std::optional<Pose2> undock(const Query& query, const Pose2& start,
+                            const std::vector<std::uint8_t>& wanted) {
+  const double step_m = query.grid.resolution() / 2.0;
+  for (const Footprint* footprint : {&query.docking, &query.plain}) {
+    const StraightMotion motion(query.checker, *footprint, {query.checker, *footprint, start});
+    std::vector<Pose2> front(kUndockDirections, start);
+    std::vector<std::uint8_t> blocked(kUndockDirections, 0);
+    for (double out_m = step_m; out_m <= kMaxUndock_m; out_m += step_m) {
+      std::optional<Pose2> best;
+      float best_clearance = 0.0F;
+      for (int i = 0; i < kUndockDirections; ++i) {
+        if (blocked[i]) continue;
+        const Pose2 pose = shifted(start, i * 2.0 * M_PI / kUndockDirections, out_m);
+        blocked[i] = motion.firstBlock(front[i], pose).has_value();
+        front[i] = pose;
+        const int cell = query.grid.cell(pose.position());
+        if (blocked[i] || cell < 0 || !wanted[cell]) continue;
+        if (best && query.grid.clearance(cell) <= best_clearance) continue;
+        best = pose;
+        best_clearance = query.grid.clearance(cell);
+      }
+      if (best) return best;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Undocked, pre-dock and what lies between them.
+RobotPath assemble(const Pose2& start, const Pose2& goal,
+                   const std::vector<Eigen::Vector2d>& travel) {
+  RobotPath path;
+  path.found = true;
+  double travel_m = 0.0;
+  for (std::size_t i = 1; i < travel.size(); ++i) travel_m += (travel[i] - travel[i - 1]).norm();
+  path.waypoints.push_back(start);
+  const auto append = [&path](const Pose2& pose) {
+    const Pose2& last = path.waypoints.back();
+    constexpr double kSame = 1e-9;
+    if (distance(last, pose) < kSame && std::abs(yawDifference(last, pose)) < kSame) return;
+    path.waypoints.push_back(pose);
+  };
+  double done_m = 0.0;
+  for (std::size_t i = 0; i < travel.size(); ++i) {
+    if (i > 0) done_m += (travel[i] - travel[i - 1]).norm();
+    double fraction = i + 1 == travel.size() ? 1.0 : 0.0;
+    if (travel_m > 0.0) fraction = done_m / travel_m;
+    const double yaw = between(start, goal, std::min(1.0, fraction)).yaw();
+    append({travel[i].x(), travel[i].y(), yaw});
+  }
+  append(goal);
+  // The goal may be the same up to rounding, yet it is promised exactly.
+  if (path.waypoints.size() == 1) {
+    path.waypoints.push_back(goal);
+  } else {
+    path.waypoints.back() = goal;
+  }
+  for (std::size_t i = 1; i < path.waypoints.size(); ++i) {
+    path.length_m += distance(path.waypoints[i - 1], path.waypoints[i]);
+  }
+  return path;
+}
+
+/// The robot stands where it can travel.
+RobotPath planFromFreeStart(const Query& query, const Pose2& start, const Pose2& goal,
+                            DockLine* dock) {
+  const auto reached = query.search.reachable(query.grid.cell(start.position()));
+  while (const auto pre_dock = dock->next()) {
+    if (!reached[query.grid.cell(pre_dock->position())]) continue;
+    return assemble(start, goal, query.search.travel(start.position(), pre_dock->position()));
+  }
+  if (!dock->foundAny()) return failure(dock->explanation());
+  return failure("no free path from " + at(start) + " to the dock pose " + at(goal));
+}
+
+/// The robot has to leave something's side first.
+RobotPath planFromContact(const Query& query, const Pose2& start, const Pose2& goal,
+                          DockLine* dock) {
+  std::vector<std::uint8_t> tried(query.grid.size(), 0);
+  while (const auto pre_dock = dock->next()) {
+    const int cell = query.grid.cell(pre_dock->position());
+    if (tried[cell]) continue;
+    const auto reached = query.search.reachable(cell);
+    if (const auto free = undock(query, start, reached)) {
+      return assemble(start, goal, query.search.travel(free->position(), pre_dock->position()));
+    }
+    for (std::size_t i = 0; i < tried.size(); ++i) tried[i] |= reached[i];
+  }
+  if (!dock->foundAny()) return failure(dock->explanation());
+  std::vector<std::uint8_t> anywhere(query.grid.size());
+  for (int cell = 0; cell < query.grid.size(); ++cell) anywhere[cell] = query.search.isFree(cell);
+  if (undock(query, start, anywhere)) {
+    return failure("no free path from " + at(start) + " to the dock pose " + at(goal));
+  }
+  const auto contacts = query.checker.contacts(query.docking, start);
+  const std::string by = contacts.empty() ? "what stands close around it"
+                                          : describe(contacts.front(), query.checker.obstacles());
+  return failure("start pose blocked by " + by + ": there is no straight way out");
+}
+
+void checkOptions(const RobotPathOptions& options) {
+  const auto check = [](const char* name, double value, double bound) {
+    if (value >= 0.0 && value <= bound) return;
+    std::ostringstream what;
+    what << "is " << value << ", must be in [0, " << bound << "]";
+    throw InputError(std::string("robot path: ") + name, what.str());
+  };
+  check("margin_m", options.margin_m, 1.0);
+  check("dock_margin_m", options.dock_margin_m, 0.5);
+  check("contact_tolerance_m", options.contact_tolerance_m, 0.1);
+}
+
+}  // namespace
+
+/// What stays the same from query to query on one map.
+struct RobotPathPlanner::Cache {
+  struct Prepared {
+    std::shared_ptr<const CollisionChecker::Columns> columns;
+    std::shared_ptr<const ClearanceGrid> grid;
+    std::shared_ptr<const Footprint> plain;
+    std::shared_ptr<const Footprint> docking;
+  };
+
+  explicit Cache(std::vector<TravelDisc> discs_of_robot) : discs(std::move(discs_of_robot)) {}
+
+  Prepared prepare(const CollisionChecker& checker, const Solid& robot, double dock_margin_m) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto columns = checker.mapColumns();
+    if (prepared.columns == columns) return prepared;
+    prepared.grid = std::make_shared<ClearanceGrid>(*columns, discs);
+    const bool other_resolution =
+        !prepared.columns || prepared.columns->resolution_m != columns->resolution_m;
+    if (other_resolution) {
+      prepared.plain = checker.footprint(robot);
+      prepared.docking = checker.footprint(robot, dock_margin_m);
+    }
+    prepared.columns = columns;
+    return prepared;
+  }
+
+  const std::vector<TravelDisc> discs;
+  std::mutex mutex;
+  Prepared prepared;
+};
+
+RobotPathPlanner::RobotPathPlanner(RobotModel robot, RobotPathOptions options)
+    : robot_(std::move(robot)), options_(options) {
+  checkOptions(options);
+  if (robot_.solid.empty()) throw InputError("robot " + robot_.name, "has no collision shapes");
+  cache_ = std::make_shared<Cache>(travelDiscs(robot_.solid, options.margin_m));
+}
+
+RobotPath RobotPathPlanner::plan(const CollisionChecker& checker, const Pose2& map_T_robot,
+                                 const Pose2& goal, double dock_direction_rad) const {
+  if (!map_T_robot.isFinite()) return failure("start pose is not finite");
+  if (!goal.isFinite() || !std::isfinite(dock_direction_rad)) {
+    return failure("dock pose or direction is not finite");
+  }
+  const Cache::Prepared prepared = cache_->prepare(checker, robot_.solid, options_.dock_margin_m);
+  for (const Contact& contact : checker.contacts(*prepared.plain, goal)) {
+    const bool tolerated =
+        contact.with == Contact::With::kObstacle && contact.depth_m <= options_.contact_tolerance_m;
+    if (!tolerated)
+      return failure("dock pose blocked by " + describe(contact, checker.obstacles()));
+  }
+  const bool stands_apart = !checker.collides(*prepared.docking, map_T_robot);
+  if (stands_apart && distance(map_T_robot, goal) < kDirect_m) {
+    const StraightMotion direct(checker, *prepared.docking, {checker, *prepared.docking, goal});
+    if (!direct.firstBlock(map_T_robot, goal)) return assemble(map_T_robot, goal, {});
+  }
+
+  ClearanceGrid grid = *prepared.grid;
+  for (const PlacedSolid& placed : checker.obstacles()) {
+    grid.add(placed, cache_->discs, kObstacleRange_m);
+  }
+  // Half a diagonal step off a cell's centre the discs without margin must still be free.
+  const double half_diagonal_m = grid.resolution() * M_SQRT1_2;
+  const GridSearch search(grid, std::max(0.0, half_diagonal_m - options_.margin_m));
+  const Query query{checker, grid, search, *prepared.plain, *prepared.docking};
+  DockLine dock(query, goal, dock_direction_rad);
+  const bool can_travel = search.isFree(grid.cell(map_T_robot.position()));
+  return can_travel ? planFromFreeStart(query, map_T_robot, goal, &dock)
+                    : planFromContact(query, map_T_robot, goal, &dock);
+}
+
+}  // namespace casepush
