@@ -27,6 +27,16 @@ struct Query {
   const GridSearch& search;
   const Footprint& plain;    ///< The robot's true shape.
   const Footprint& docking;  ///< Grown by the docking margin.
+
+  /// Where a pose's own clearance counts, or only that of the centre of its cell.
+  enum class Clear { kHere, kInCell };
+
+  bool canTravel(const Pose2& pose, Clear clear) const {
+    const int cell = grid.cell(pose.position());
+    if (!search.isFree(cell)) return false;
+    if (clear == Clear::kInCell) return true;
+    return grid.clearance(cell) >= (grid.centre(cell) - pose.position()).norm();
+  }
 };
 
 std::string at(const Pose2& pose) {
@@ -57,22 +67,15 @@ class DockLine {
         direction_rad_(direction_rad),
         current_(goal) {}
 
-  /// The next pose in another cell than the last one; nothing if the line is blocked or long
-  /// enough.
+  /// The next such pose in another cell than the last one, those that are clear themselves first;
+  /// nothing if there are no more.
   std::optional<Pose2> next() {
-    const double step_m = query_.grid.resolution() / 2.0;
-    while (back_m_ <= kMaxDock_m && !block_) {
-      const Pose2 pose = shifted(goal_, direction_rad_, -back_m_);
-      block_ = motion_.firstBlock(current_, pose);
-      if (block_) break;
-      current_ = pose;
-      back_m_ += step_m;
-      const int cell = query_.grid.cell(pose.position());
-      if (cell == last_cell_ || !query_.search.isFree(cell)) continue;
-      last_cell_ = cell;
-      return pose;
-    }
-    return std::nullopt;
+    std::optional<Pose2> pose = nextOf(clear_);
+    if (pose || clear_ == Query::Clear::kInCell) return pose;
+    clear_ = Query::Clear::kInCell;
+    back_m_ = 0.0;
+    current_ = goal_;
+    return nextOf(clear_);
   }
 
   bool foundAny() const { return last_cell_ >= 0; }
@@ -86,45 +89,82 @@ class DockLine {
   }
 
  private:
+  std::optional<Pose2> nextOf(Query::Clear clear) {
+    const double step_m = query_.grid.resolution() / 2.0;
+    while (back_m_ <= kMaxDock_m) {
+      const Pose2 pose = shifted(goal_, direction_rad_, -back_m_);
+      block_ = motion_.firstBlock(current_, pose);
+      if (block_) break;
+      current_ = pose;
+      back_m_ += step_m;
+      const int cell = query_.grid.cell(pose.position());
+      if (cell == last_cell_ || !query_.canTravel(pose, clear)) continue;
+      last_cell_ = cell;
+      return pose;
+    }
+    return std::nullopt;
+  }
+
   const Query& query_;
   StraightMotion motion_;
   Pose2 goal_;
   double direction_rad_;
   Pose2 current_;
+  Query::Clear clear_ = Query::Clear::kHere;
   double back_m_ = 0.0;
   int last_cell_ = -1;
   std::optional<Contact> block_;
 };
 
-/// Nearest pose, in a straight line from `start`, in a cell that is marked in `wanted`; of those
-/// equally near the one with most clearance. The motion comes no closer to anything than the start
-/// is: within the docking margin if possible, else where it overlaps.
-std::optional<Pose2> undock(const Query& query, const Pose2& start,
-                            const std::vector<std::uint8_t>& wanted) {
-  const double step_m = query.grid.resolution() / 2.0;
-  for (const Footprint* footprint : {&query.docking, &query.plain}) {
-    const StraightMotion motion(query.checker, *footprint, {query.checker, *footprint, start});
-    std::vector<Pose2> front(kUndockDirections, start);
+/// Straight ways out of a place where the robot cannot travel.
+class Undocking {
+ public:
+  Undocking(const Query& query, const Pose2& start) : query_(query), start_(start) {}
+
+  /// Nearest clear pose, in a straight line from the start, in a cell that is marked in `wanted`;
+  /// of those equally near the one with most clearance. The motion comes no closer to anything than
+  /// the start is: within the docking margin if possible, else where it overlaps.
+  std::optional<Pose2> find(const std::vector<std::uint8_t>& wanted) {
+    for (const Footprint* footprint : {&query_.docking, &query_.plain}) {
+      const StraightMotion motion(query_.checker, *footprint, {query_.checker, *footprint, start_});
+      if (const auto pose = find(motion, wanted)) return pose;
+    }
+    return std::nullopt;
+  }
+
+  /// What was in the way first.
+  const std::optional<Contact>& block() const { return block_; }
+
+ private:
+  std::optional<Pose2> find(const StraightMotion& motion, const std::vector<std::uint8_t>& wanted) {
+    const double step_m = query_.grid.resolution() / 2.0;
+    std::vector<Pose2> front(kUndockDirections, start_);
     std::vector<std::uint8_t> blocked(kUndockDirections, 0);
     for (double out_m = step_m; out_m <= kMaxUndock_m; out_m += step_m) {
       std::optional<Pose2> best;
       float best_clearance = 0.0F;
       for (int i = 0; i < kUndockDirections; ++i) {
         if (blocked[i]) continue;
-        const Pose2 pose = shifted(start, i * 2.0 * M_PI / kUndockDirections, out_m);
-        blocked[i] = motion.firstBlock(front[i], pose).has_value();
+        const Pose2 pose = shifted(start_, i * 2.0 * M_PI / kUndockDirections, out_m);
+        const auto block = motion.firstBlock(front[i], pose);
+        if (!block_) block_ = block;
+        blocked[i] = block.has_value();
         front[i] = pose;
-        const int cell = query.grid.cell(pose.position());
-        if (blocked[i] || cell < 0 || !wanted[cell]) continue;
-        if (best && query.grid.clearance(cell) <= best_clearance) continue;
+        if (blocked[i] || !query_.canTravel(pose, Query::Clear::kHere)) continue;
+        const int cell = query_.grid.cell(pose.position());
+        if (!wanted[cell] || (best && query_.grid.clearance(cell) <= best_clearance)) continue;
         best = pose;
-        best_clearance = query.grid.clearance(cell);
+        best_clearance = query_.grid.clearance(cell);
       }
       if (best) return best;
     }
+    return std::nullopt;
   }
-  return std::nullopt;
-}
+
+  const Query& query_;
+  Pose2 start_;
+  std::optional<Contact> block_;
+};
 
 /// Undocked, pre-dock and what lies between them.
 RobotPath assemble(const Pose2& start, const Pose2& goal,
@@ -143,9 +183,9 @@ RobotPath assemble(const Pose2& start, const Pose2& goal,
   double done_m = 0.0;
   for (std::size_t i = 0; i < travel.size(); ++i) {
     if (i > 0) done_m += (travel[i] - travel[i - 1]).norm();
-    double fraction = i + 1 == travel.size() ? 1.0 : 0.0;
-    if (travel_m > 0.0) fraction = done_m / travel_m;
-    const double yaw = between(start, goal, std::min(1.0, fraction)).yaw();
+    const double fraction = travel_m > 0.0 ? std::min(1.0, done_m / travel_m) : 0.0;
+    const bool arrived = i + 1 == travel.size();
+    const double yaw = arrived ? goal.yaw() : between(start, goal, fraction).yaw();
     append({travel[i].x(), travel[i].y(), yaw});
   }
   append(goal);
@@ -163,38 +203,39 @@ RobotPath assemble(const Pose2& start, const Pose2& goal,
 
 /// The robot stands where it can travel.
 RobotPath planFromFreeStart(const Query& query, const Pose2& start, const Pose2& goal,
-                            DockLine* dock) {
+                            double dock_direction_rad) {
+  DockLine dock(query, goal, dock_direction_rad);
   const auto reached = query.search.reachable(query.grid.cell(start.position()));
-  while (const auto pre_dock = dock->next()) {
+  while (const auto pre_dock = dock.next()) {
     if (!reached[query.grid.cell(pre_dock->position())]) continue;
     return assemble(start, goal, query.search.travel(start.position(), pre_dock->position()));
   }
-  if (!dock->foundAny()) return failure(dock->explanation());
+  if (!dock.foundAny()) return failure(dock.explanation());
   return failure("no free path from " + at(start) + " to the dock pose " + at(goal));
 }
 
 /// The robot has to leave something's side first.
 RobotPath planFromContact(const Query& query, const Pose2& start, const Pose2& goal,
-                          DockLine* dock) {
+                          double dock_direction_rad) {
+  DockLine dock(query, goal, dock_direction_rad);
+  Undocking undocking(query, start);
   std::vector<std::uint8_t> tried(query.grid.size(), 0);
-  while (const auto pre_dock = dock->next()) {
+  while (const auto pre_dock = dock.next()) {
     const int cell = query.grid.cell(pre_dock->position());
     if (tried[cell]) continue;
     const auto reached = query.search.reachable(cell);
-    if (const auto free = undock(query, start, reached)) {
+    if (const auto free = undocking.find(reached)) {
       return assemble(start, goal, query.search.travel(free->position(), pre_dock->position()));
     }
     for (std::size_t i = 0; i < tried.size(); ++i) tried[i] |= reached[i];
   }
-  if (!dock->foundAny()) return failure(dock->explanation());
-  std::vector<std::uint8_t> anywhere(query.grid.size());
-  for (int cell = 0; cell < query.grid.size(); ++cell) anywhere[cell] = query.search.isFree(cell);
-  if (undock(query, start, anywhere)) {
+  if (!dock.foundAny()) return failure(dock.explanation());
+  const std::vector<std::uint8_t> anywhere(query.grid.size(), 1);
+  if (undocking.find(anywhere)) {
     return failure("no free path from " + at(start) + " to the dock pose " + at(goal));
   }
-  const auto contacts = query.checker.contacts(query.docking, start);
-  const std::string by = contacts.empty() ? "what stands close around it"
-                                          : describe(contacts.front(), query.checker.obstacles());
+  const std::string by = undocking.block() ? describe(*undocking.block(), query.checker.obstacles())
+                                           : "what stands around it";
   return failure("start pose blocked by " + by + ": there is no straight way out");
 }
 
@@ -277,10 +318,11 @@ RobotPath RobotPathPlanner::plan(const CollisionChecker& checker, const Pose2& m
   const double half_diagonal_m = grid.resolution() * M_SQRT1_2;
   const GridSearch search(grid, std::max(0.0, half_diagonal_m - options_.margin_m));
   const Query query{checker, grid, search, *prepared.plain, *prepared.docking};
-  DockLine dock(query, goal, dock_direction_rad);
-  const bool can_travel = search.isFree(grid.cell(map_T_robot.position()));
-  return can_travel ? planFromFreeStart(query, map_T_robot, goal, &dock)
-                    : planFromContact(query, map_T_robot, goal, &dock);
+  if (!query.canTravel(map_T_robot, Query::Clear::kHere)) {
+    RobotPath path = planFromContact(query, map_T_robot, goal, dock_direction_rad);
+    if (path.found || !query.canTravel(map_T_robot, Query::Clear::kInCell)) return path;
+  }
+  return planFromFreeStart(query, map_T_robot, goal, dock_direction_rad);
 }
 
 }  // namespace casepush

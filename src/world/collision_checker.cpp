@@ -232,7 +232,6 @@ std::vector<Contact> CollisionChecker::contacts(const Footprint& footprint,
   outside.with = Contact::With::kOutside;
   outside.where_m = map_T_solid.position();
   outside.depth_m = placed.depthOutside(map.min_m, map.max_m);
-  if (outside.depth_m > 0.0) contacts.push_back(outside);
   Contact cell;
   visitHits(map.columns, footprint, map_T_solid, [&](std::size_t column) {
     Eigen::Vector2d centre;
@@ -255,6 +254,7 @@ std::vector<Contact> CollisionChecker::contacts(const Footprint& footprint,
                                       map_T_obstacle, &contact.part);
     if (contact.depth_m > 0.0) contacts.push_back(contact);
   }
+  if (outside.depth_m > 0.0) contacts.push_back(outside);
   return contacts;
 }
 

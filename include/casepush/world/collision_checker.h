@@ -65,9 +65,9 @@ class CollisionChecker {
   /// A pose that is not finite collides.
   bool collides(const Footprint& footprint, const Pose2& map_T_solid) const;
 
-  /// Everything that the solid overlaps, with depths: at most one entry for the map, one for the
-  /// outside and one for each obstacle. Empty exactly if it does not collide. @pre the pose is
-  /// finite.
+  /// Everything that the solid overlaps, with depths: at most one entry for the map, one for each
+  /// obstacle and one for the outside, in this order. Empty exactly if it does not collide. @pre
+  /// the pose is finite.
   std::vector<Contact> contacts(const Footprint& footprint, const Pose2& map_T_solid) const;
 
   /// Answer of the mask test alone, for the map without obstacles and outside: false only if free.
