@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -11,6 +12,17 @@
 #include "casepush/common/input_error.h"
 
 namespace casepush {
+namespace {
+
+bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20; }
+
+/// What comes from the file may hold line breaks; messages may not.
+std::string oneLine(std::string text) {
+  std::replace_if(text.begin(), text.end(), isControl, ' ');
+  return text;
+}
+
+}  // namespace
 
 struct YamlReader::State {
   YAML::Node node;
@@ -47,7 +59,7 @@ struct YamlReader::State {
     } catch (const std::ios_base::failure&) {  // e.g. a folder
       throw InputError(name, "cannot be read; is it a file?");
     } catch (const YAML::Exception& error) {
-      throw InputError(name, std::string("is not valid YAML: ") + error.what());
+      throw InputError(name, "is not valid YAML: " + oneLine(error.what()));
     }
     if (!state->node.IsMap()) {
       throw InputError(name, "must hold a YAML map (key: value)");
@@ -135,7 +147,11 @@ std::string YamlReader::text(const std::string& key) {
   if (!node.IsDefined() || !node.IsScalar() || node.Scalar().empty()) {
     throw InputError(where(key), "must be a non-empty text");
   }
-  return node.Scalar();
+  const std::string& value = node.Scalar();
+  if (std::any_of(value.begin(), value.end(), isControl)) {
+    throw InputError(where(key), "must be a text on one line");
+  }
+  return value;
 }
 
 std::string YamlReader::text(const std::string& key, const std::string& default_value) {
@@ -207,7 +223,7 @@ void YamlReader::finish() const {
   for (const auto& entry : state_->node) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a text)";
     if (state_->read.count(key) == 0) {
-      unknown += (unknown.empty() ? "" : ", ") + key;
+      unknown += (unknown.empty() ? "" : ", ") + oneLine(key);
     }
     if (!seen.insert(key).second) {
       throw InputError(where(key), "is given twice");

@@ -71,6 +71,8 @@ TEST(YamlReader, saysWhatIsWrongWithOtherKinds) {
             "room.yaml: a: must be a list of finite numbers");
   EXPECT_EQ(inputErrorText([] { reader("a: ''").text("a"); }),
             "room.yaml: a: must be a non-empty text");
+  EXPECT_EQ(inputErrorText([] { reader("a: \"one\\ntwo\"").text("a"); }),
+            "room.yaml: a: must be a text on one line");
   EXPECT_EQ(inputErrorText([] { reader("a: perhaps").flag("a", true); }),
             "room.yaml: a: must be true or false");
   EXPECT_EQ(inputErrorText([] { reader("{}").child("a"); }),
@@ -97,6 +99,8 @@ TEST(YamlReader, refusesUnknownAndRepeatedKeys) {
   YamlReader twice = reader("mu: 1\nmu: 2\n");
   twice.number("mu", 0, 2);
   EXPECT_EQ(inputErrorText([&] { twice.finish(); }), "room.yaml: mu: is given twice");
+  EXPECT_EQ(inputErrorText([] { reader("\"a\\nb\": 1").finish(); }),
+            "room.yaml: unknown key(s): a b");
   EXPECT_NE(inputErrorText([] { reader("? [1, 2]\n: 3\n").finish(); }), "");
 }
 
