@@ -55,7 +55,7 @@ struct ExecutorNodeParameters {
   Furnishing furnishing;
   PushPlannerOptions planner;  ///< For approach paths and for judging the rest of a plan.
   PushTaskOptions task;
-  double watchdog_s = 0.15;      ///< Wall time without a tick after which zero is commanded.
+  double watchdog_s = 0.12;      ///< Wall time without a tick after which zero is commanded.
   double stale_objects_s = 0.2;  ///< Age of `objects` above which zero is commanded.
   double dead_clock_s = 5.0;     ///< Wall time without a tick after which a goal is aborted.
 };

@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""The executor stands still whenever something it needs is gone, and says why."""
+
+import math
+import signal
+import sys
+import time
+import unittest
+
+import actionlib
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalStatus
+from geometry_msgs.msg import Pose2D, Twist
+from nav_msgs.msg import Odometry
+from std_srvs.srv import Trigger
+
+import harness
+from casepush.msg import (BodyPose, ExecutedPush, ExecutePushAction, ExecutePushGoal,
+                          ExecutePushResult, ExecutorState, Octomap, PushableObjectArray,
+                          PushCaseArray, PushObjectAction, PushObjectGoal, PushObjectResult,
+                          TrialPush)
+from casepush.srv import SetPoses
+
+WORLD = "_world:=open_floor"
+# Within this wall time after an event (at real-time factor 1) no command moves the base any more.
+REACTION_S = 0.2
+# Age at which poses count as stale.
+STALE_S = 0.2
+# For the scheduling of a busy machine.
+SLACK_S = 0.1
+
+
+class ExecutorNodeTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.sim = harness.start_node("sim_node", WORLD, "_real_time_factor:=1.0")
+        cls.perception = harness.start_node("perception_node", WORLD)
+        cls.planner = harness.start_node("planner_node", WORLD)
+        cls.commands = harness.Recorder("cmd_vel", Twist)
+        cls.objects = harness.Recorder("objects", PushableObjectArray)
+        cls.odometry = harness.Recorder("odom", Odometry)
+        cls.reports = harness.Recorder("push_reports", ExecutedPush)
+        cls.state = harness.Recorder("executor/state", ExecutorState)
+        cls.fake_odometry = rospy.Publisher("odom", Odometry, queue_size=1)
+        cls.cases = rospy.Publisher("cases", PushCaseArray, queue_size=1, latch=True)
+        cls.push_object = actionlib.SimpleActionClient("push_object", PushObjectAction)
+        cls.execute_push = actionlib.SimpleActionClient("execute_push", ExecutePushAction)
+        for client in (cls.push_object, cls.execute_push):
+            harness.wait_until(client.action_client.wait_for_server, what="the executor's actions")
+        harness.Recorder("map/octomap", Octomap).wait()
+        rospy.wait_for_service("sim/set_pose", timeout=20)
+        cls.set_pose = rospy.ServiceProxy("sim/set_pose", SetPoses)
+        cls.stop = rospy.ServiceProxy("stop", Trigger)
+
+    @classmethod
+    def tearDownClass(cls):
+        for process in (cls.sim, cls.perception, cls.planner):
+            harness.end_node(process)
+
+    def setUp(self):
+        self.cases.publish(harness.made_up_cases())
+        response = self.set_pose([BodyPose(harness.OBJECT, Pose2D(0.0, 0.0, 0.0)),
+                                  BodyPose("robot", Pose2D(-1.6, 0.6, 0.0))])
+        self.assertTrue(response.success, response.message)
+        self.objects.wait(lambda m: m.objects and not m.objects[0].moving and math.hypot(
+            m.objects[0].pose.pose.position.x, m.objects[0].pose.pose.position.y) < 0.05)
+        self.commands.clear()
+
+    def result(self, client, goal, patience_s=30.0):
+        client.send_goal(goal)
+        return self.wait_for_result(client, patience_s)
+
+    def wait_for_result(self, client, patience_s=30.0):
+        harness.wait_until(lambda: client.get_state() > GoalStatus.ACTIVE, patience_s, "a result")
+        return client.get_result()
+
+    def replay(self, case_id=2):
+        return ExecutePushGoal(object_id=harness.OBJECT, case_id=case_id)
+
+    def push_goal(self):
+        return PushObjectGoal(object_id=harness.OBJECT, goal=harness.pose(2.5, 1.5, 0.5), seed=1)
+
+    def start_moving(self, client, goal):
+        """Sends a goal, again if the executor has not heard of the cases yet."""
+        def attempt():
+            client.send_goal(goal)
+            harness.wait_until(lambda: client.get_state() != GoalStatus.PENDING, what="an answer")
+            return client.get_state() == GoalStatus.ACTIVE
+
+        harness.wait_until(attempt, what="a goal to be accepted")
+        self.commands.wait(lambda command: math.hypot(command.linear.x, command.linear.y) > 0.1)
+
+    def expect_standstill(self, event, within_s):
+        """No command later than `within_s` after the event moves the base, and one says zero."""
+        harness.wait_until(lambda: time.monotonic() > event + within_s + 0.5, what="time to pass")
+        late = [(stamp - event, command) for stamp, command in self.commands.all()
+                if stamp > event + within_s and not harness.is_zero(command)]
+        self.assertEqual(late, [])
+        zeros = [stamp for stamp, command in self.commands.all()
+                 if stamp > event and harness.is_zero(command)]
+        self.assertTrue(zeros, "nobody told the base to stand still")
+
+    def test_executes_a_push_and_reports_it(self):
+        trial = ExecutePushGoal(object_id=harness.OBJECT)
+        trial.configuration = TrialPush(
+            object_T_robot=Pose2D(-harness.REACH_M, 0.0, 0.0), speed=0.3, duration=2.0)
+        result = self.result(self.execute_push, trial, 60.0)
+        self.assertEqual(result.status, ExecutePushResult.EXECUTED, result.explanation)
+        self.assertEqual(result.report.outcome, ExecutedPush.DONE, result.report.explanation)
+        self.assertGreater(result.report.observed.x, 0.1)
+        report = self.reports.wait()
+        self.assertEqual(report.sequence, 1)
+        self.assertGreater(len(report.recorded.steps), 10)
+        self.assertFalse(report.adapted)
+        self.assertEqual(self.state.wait().activity, ExecutorState.IDLE)
+
+    def test_stops_when_cancelled(self):
+        self.start_moving(self.execute_push, self.replay())
+        event = time.monotonic()
+        self.execute_push.cancel_goal()
+        self.expect_standstill(event, REACTION_S)
+        self.assertEqual(self.execute_push.get_state(), GoalStatus.PREEMPTED)
+        self.assertEqual(self.execute_push.get_result().status, ExecutePushResult.CANCELLED)
+
+    def test_stops_by_the_service(self):
+        self.start_moving(self.push_object, self.push_goal())
+        event = time.monotonic()
+        self.assertTrue(self.stop().success)
+        self.expect_standstill(event, REACTION_S)
+        self.assertEqual(self.wait_for_result(self.push_object).status, PushObjectResult.STOPPED)
+
+    def test_stops_when_perception_dies(self):
+        self.start_moving(self.execute_push, self.replay())
+        event = time.monotonic()
+        self.perception.kill()
+        self.expect_standstill(event, STALE_S + REACTION_S)
+        result = self.wait_for_result(self.execute_push)
+        self.assertEqual(result.report.outcome, ExecutedPush.OBJECT_LOST, result.explanation)
+        self.perception.wait()
+        type(self).perception = harness.start_node("perception_node", WORLD)
+
+    def test_stops_when_the_planner_dies(self):
+        self.start_moving(self.push_object, self.push_goal())
+        event = time.monotonic()
+        self.planner.kill()
+        self.expect_standstill(event, REACTION_S)
+        result = self.wait_for_result(self.push_object)
+        self.assertEqual(result.status, PushObjectResult.PLANNER_GONE, result.explanation)
+        self.planner.wait()
+        type(self).planner = harness.start_node("planner_node", WORLD)
+
+    def test_stops_when_the_simulator_dies(self):
+        self.start_moving(self.execute_push, self.replay())
+        event = time.monotonic()
+        self.sim.send_signal(signal.SIGSTOP)
+        try:
+            self.expect_standstill(event, REACTION_S + SLACK_S)
+            result = self.wait_for_result(self.execute_push)
+            self.assertEqual(result.status, ExecutePushResult.STOPPED)
+            self.assertIn("time has stood still", result.explanation)
+        finally:
+            self.sim.send_signal(signal.SIGCONT)
+
+    def test_stops_when_tf_freezes(self):
+        self.start_moving(self.execute_push, self.replay())
+        self.sim.send_signal(signal.SIGSTOP)
+        try:
+            event = time.monotonic()
+            message = self.odometry.last()
+            # Odometry goes on at the same pace, TF does not.
+            while time.monotonic() < event + 1.0:
+                step = int((time.monotonic() - event) / 0.02) + 1
+                harness.wait_until(lambda s=step: time.monotonic() > event + 0.02 * s)
+                message.header.stamp += rospy.Duration(0.02)
+                self.fake_odometry.publish(message)
+            self.expect_standstill(event, STALE_S + REACTION_S)
+        finally:
+            self.sim.send_signal(signal.SIGCONT)
+            self.stop()
+
+    def test_refuses_a_second_goal(self):
+        self.start_moving(self.execute_push, self.replay())
+        result = self.result(self.push_object, self.push_goal())
+        self.assertEqual(self.push_object.get_state(), GoalStatus.REJECTED)
+        self.assertEqual(result.status, PushObjectResult.BUSY)
+        self.assertIn("busy", result.explanation)
+        self.execute_push.cancel_goal()
+        self.wait_for_result(self.execute_push)
+
+    def test_refuses_bad_goals_with_a_reason(self):
+        unknown = self.push_goal()
+        unknown.object_id = "piano_1"
+        nowhere = self.push_goal()
+        nowhere.goal.header.frame_id = "atlantis"
+        not_finite = self.push_goal()
+        not_finite.goal.pose.position.x = math.nan
+        for goal, words in ((unknown, "piano_1"), (nowhere, "atlantis"), (not_finite, "finite")):
+            result = self.result(self.push_object, goal)
+            self.assertEqual(result.status, PushObjectResult.INVALID_GOAL, result.explanation)
+            self.assertIn(words, result.explanation)
+        trial = ExecutePushGoal(object_id=harness.OBJECT)
+        trial.configuration = TrialPush(speed=99.0, duration=1.0)
+        for goal, words in ((self.replay(4711), "4711"), (trial, "speed")):
+            result = self.result(self.execute_push, goal)
+            self.assertEqual(result.status, ExecutePushResult.INVALID_GOAL, result.explanation)
+            self.assertIn(words, result.explanation)
+        outside = self.push_goal()
+        outside.goal.pose.position.x = 40.0
+        result = self.result(self.push_object, outside)
+        self.assertEqual(result.status, PushObjectResult.INVALID_GOAL, result.explanation)
+
+    def test_refuses_to_push_without_cases(self):
+        self.cases.publish(PushCaseArray())
+        harness.wait_until(lambda: self.result(self.push_object, self.push_goal()).status ==
+                           PushObjectResult.NOT_READY, what="the cases to be gone")
+        self.assertIn("no cases", self.push_object.get_result().explanation)
+
+
+if __name__ == "__main__":
+    rospy.init_node("executor_node_test")
+    rostest.rosrun("casepush", "executor_node", ExecutorNodeTest, sys.argv)

@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""Every launch file loads, and every node in it exists."""
+
+import glob
+import os
+import sys
+import unittest
+
+import roslaunch
+import rostest
+
+import harness
+
+ARGUMENTS = {"nodes.launch": ["world:=office"], "robot.launch": ["world:=office"]}
+
+
+class LaunchFilesTest(unittest.TestCase):
+
+    def test_every_launch_file_loads(self):
+        files = glob.glob(os.path.join(harness.share(), "launch", "*.launch"))
+        self.assertGreaterEqual(len(files), 4)
+        for file in files:
+            arguments = ARGUMENTS.get(os.path.basename(file), [])
+            with self.subTest(file=file):
+                config = roslaunch.config.load_config_default([(file, arguments)], None)
+                self.assertEqual(config.config_errors, [])
+                self.assertTrue(config.nodes)
+                for node in config.nodes:
+                    found = roslaunch.node_args.create_local_process_args(
+                        node, config.machines[""])
+                    self.assertTrue(os.access(found[0], os.X_OK), found)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("casepush", "launch_files", LaunchFilesTest, sys.argv)
