@@ -1,4 +1,4 @@
-"""Writes a small made-up recording with the package's real messages: a chair is learnt, then pushed."""
+"""Writes a small made-up recording with the package's messages: a chair is learnt, then pushed."""
 
 import math
 import random
@@ -201,9 +201,9 @@ class Story:
         self.write('/executor/state', msg.ExecutorState(description='done'))
 
     def touch(self, body, obstacle, impulse_ns):
-        contact = msg.Contact(body_a=obstacle, part_a='', body_b=body, part_b='base',
-                              impulse=impulse_ns)
-        self.write('/contacts', msg.ContactArray(contacts=[contact]))
+        contact = msg.BodyContact(body_a=obstacle, part_a='', body_b=body, part_b='base',
+                                  impulse=impulse_ns)
+        self.write('/contacts', msg.BodyContactArray(contacts=[contact]))
 
 
 def room_points(size_m=15.0):

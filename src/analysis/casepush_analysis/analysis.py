@@ -52,7 +52,8 @@ class TaskAnalysis:
         if self.success:
             return self.task.explanation or 'the object stands at its goal'
         if self.task.status == 'succeeded':
-            return 'reported as a success, but by ground truth the object does not stand at its goal'
+            return ('reported as a success, but by ground truth the object does not stand at its '
+                    'goal')
         return self.task.explanation or self.task.status
 
 
@@ -115,7 +116,7 @@ def missing(recording):
     """What the bag does not hold, and what the report therefore cannot show."""
     has_task = bool(recording.tasks) or any(p.part is Part.TASK for p in recording.pushes)
     wanted = [
-        (recording.pushes, 'push_reports', 'no push is known: no deviations, verdicts, calibration'),
+        (recording.pushes, 'push_reports', 'no push is known: no deviations, no verdicts'),
         (recording.cases, 'cases', 'the cases are not drawn'),
         (recording.phases, 'executor/state', 'times for planning and approach are unknown'),
         (recording.tracked, 'objects', 'the tracked path is not drawn'),
@@ -126,7 +127,7 @@ def missing(recording):
     if has_task:
         wanted += [
             (any(t.status != 'unknown' for t in recording.tasks), 'push_object/goal',
-             'goal and times of the task are taken from plans and pushes, the tolerance is assumed'),
+             'goal and times of the task are taken from the plans, its tolerance is assumed'),
             (recording.plans, 'plan', 'plans are not drawn, re-plans are counted from pushes'),
             (recording.room is not None, 'points', 'the room is not drawn'),
         ]

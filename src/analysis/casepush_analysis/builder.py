@@ -1,5 +1,10 @@
 """Puts the messages of a bag together into a Recording, topic by topic."""
 
+import struct
+
+import genmsg
+import genpy
+
 from casepush_analysis import conversions, records, room
 from casepush_analysis.conversions import NotFinite
 from casepush_analysis.se2 import Pose2
@@ -44,7 +49,7 @@ class Builder:
             ('LearnObjectActionResult', ''): self._learn_result,
             ('PushCaseArray', ''): self._cases,
             ('ExecutorState', ''): self._state,
-            ('ContactArray', ''): self._contacts,
+            ('BodyContactArray', ''): self._contacts,
             ('PushableObjectArray', 'ground_truth/objects'): self._truth,
             ('PushableObjectArray', 'objects'): self._tracked,
             ('Octomap', ''): self._octomap,
@@ -75,13 +80,14 @@ class Builder:
         """True if only the newest message of a topic matters, so that the others stay undecoded."""
         return datatype.endswith(('/PushCaseArray', '/Octomap'))
 
-    def add(self, topic, function, message, stamp_s):
+    def add(self, topic, function, decode, stamp_s):
         """Hands one message on; one that makes no sense is counted and left out."""
         try:
-            function(message, stamp_s)
+            function(decode(), stamp_s)
         except NotFinite:
             self._skip(topic, 'with numbers that are not finite')
-        except (AttributeError, IndexError, KeyError, TypeError, ValueError):
+        except (AttributeError, IndexError, KeyError, TypeError, ValueError, struct.error,
+                genpy.DeserializationError, genmsg.MsgGenerationException, genmsg.InvalidMsgSpec):
             self._skip(topic, 'that this version does not understand')
 
     def _skip(self, topic, why):
@@ -116,12 +122,12 @@ class Builder:
         self._learning[message.goal_id.id] = records.LearningRecord(message.goal.object_id, stamp_s)
 
     def _learn_result(self, message, stamp_s):
-        run = self._learning.get(message.status.goal_id.id)
-        if run is not None:
-            result = message.result
-            run.cases, run.pushes = result.cases, result.pushes
-            run.discarded, run.dropped = result.discarded, result.dropped
-            _close(run, result, stamp_s)
+        result = message.result
+        run = self._learning.setdefault(message.status.goal_id.id, records.LearningRecord(
+            '', stamp_s - conversions.finite(result.duration)))
+        run.cases, run.pushes = result.cases, result.pushes
+        run.discarded, run.dropped = result.discarded, result.dropped
+        _close(run, result, stamp_s)
 
     def _cases(self, message, _):
         self.recording.cases = [conversions.case(c) for c in message.cases if c.steps]

@@ -73,8 +73,8 @@ def dkw_bound(count):
 def infer_alpha(pushes):
     """The level that the verdicts were given at, as far as they tell it.
 
-    The default if it fits all verdicts; otherwise the middle of the gap between the largest rejected
-    and the smallest accepted p-value.
+    The default if it fits all verdicts; otherwise the middle of the gap between the largest
+    rejected and the smallest accepted p-value.
     """
     rejected = [p.p_value for p in tested_pushes(pushes) if p.rejected]
     accepted = [p.p_value for p in tested_pushes(pushes) if not p.rejected]

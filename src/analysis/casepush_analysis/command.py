@@ -15,12 +15,12 @@ EXIT_DONE, EXIT_NOT_WRITTEN, EXIT_BAD_INPUT = 0, 1, 2
 def parse(arguments):
     parser = argparse.ArgumentParser(
         prog='analyze_bag', description='Analyses a recording of casepush without a ROS master: '
-        'tables (CSV), summary.json, pictures (PNG) and report.html.',
+        'tables (CSV), analysis.json, pictures (PNG) and report.html.',
         epilog='Exit codes: 0 done, 1 the results could not be written, 2 bad usage or bad input.')
     parser.add_argument('bag', metavar='FILE.bag', help='recording; it is only read')
     parser.add_argument('--output', metavar='DIR', help='folder for the results, made if missing '
                         '(default: FILE_analysis in the current folder)')
-    parser.add_argument('--json', action='store_true', help='also print summary.json on stdout')
+    parser.add_argument('--json', action='store_true', help='also print analysis.json on stdout')
     return parser.parse_args(arguments)
 
 
@@ -48,12 +48,12 @@ def main(arguments, log=sys.stderr, out=sys.stdout):
 
 
 def write(analysis, folder, log):
-    """Writes everything into the folder. Returns summary.json's text."""
+    """Writes everything into the folder. Returns analysis.json's text."""
     os.makedirs(folder, exist_ok=True)
     for table in tables.all_tables(analysis):
         table.write(folder)
     text = summary.to_json(summary.summarise(analysis))
-    _write(os.path.join(folder, 'summary.json'), text)
+    _write(os.path.join(folder, 'analysis.json'), text)
     log.write('analyze_bag: drawing\n')
     files = pictures.draw_all(analysis, folder)
     _write(os.path.join(folder, 'report.html'), report.render(analysis, files))

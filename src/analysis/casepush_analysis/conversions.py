@@ -123,6 +123,6 @@ def phase(message, stamp_s):
 
 
 def contact(message, stamp_s):
-    """casepush/Contact."""
+    """casepush/BodyContact."""
     return records.ContactRecord(stamp_s, message.body_a, message.part_a, message.body_b,
                                  message.part_b, finite(message.impulse))

@@ -7,7 +7,7 @@ from typing import List, Optional
 from casepush_analysis.records import Part
 from casepush_analysis.se2 import interpolate
 
-CONTACT_GAP_S = 0.25  # A pause longer than this starts a new collision.
+CONTACT_GAP_S = 0.1  # A pause longer than this starts a new collision.
 FLOOR_NAMES = ('floor', 'ground')
 
 
@@ -58,7 +58,7 @@ class Collision:
 
     start_s: float
     end_s: float
-    body: str  # The body that moves, and its link.
+    body: str  # The body that moves, and the link of it that touched first.
     part: str
     obstacle: str
     impulse_ns: float
@@ -166,7 +166,7 @@ def collisions(contacts, movable):
             continue
         body, part, obstacle = ((contact.body_a, contact.part_a, contact.body_b) if a_moves
                                 else (contact.body_b, contact.part_b, contact.body_a))
-        key = (body, part, obstacle)
+        key = (body, obstacle)
         current = open_ones.get(key)
         if current is None or contact.stamp_s - current.end_s > CONTACT_GAP_S:
             current = Collision(contact.stamp_s, contact.stamp_s, body, part, obstacle, 0.0)
@@ -200,7 +200,8 @@ def tracking_rms_m(tracked, truth, start_s, end_s):
     for time, pose in zip(tracked.times_s, tracked.poses):
         actual = interpolate(truth.times_s, truth.poses, time) if start_s <= time <= end_s else None
         if actual is not None:
-            squares.append(pose.distance_m(actual) ** 2)
+            distance_m = pose.distance_m(actual)
+            squares.append(distance_m * distance_m)
     return math.sqrt(sum(squares) / len(squares)) if squares else None
 
 

@@ -14,7 +14,7 @@ def wrap_angle(angle_rad):
 
 @dataclass(frozen=True)
 class Pose2:
-    """A pose in SE(2): position [m] and heading [rad]. a_T_b maps b-coordinates to a-coordinates."""
+    """A pose in SE(2): position [m] and heading [rad]; a_T_b maps b-coordinates to a."""
 
     x_m: float = 0.0
     y_m: float = 0.0

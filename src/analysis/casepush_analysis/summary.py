@@ -1,4 +1,4 @@
-"""The figures of an analysis for programs: summary.json."""
+"""The figures of an analysis for programs: analysis.json."""
 
 import json
 import math

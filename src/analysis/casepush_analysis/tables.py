@@ -178,7 +178,8 @@ def collisions(analysis):
     for c in analysis.collisions or []:
         task = next((entry.number for entry in analysis.tasks
                      if metrics.within(c.start_s, entry.task)), None)
-        rows.append((c.start_s, c.end_s - c.start_s, c.body, c.part, c.obstacle, c.impulse_ns, task))
+        rows.append((c.start_s, c.end_s - c.start_s, c.body, c.part, c.obstacle, c.impulse_ns,
+                     task))
     return Table('collisions', [
         Column('start_s', 'at [s]', 2), Column('duration_s', 'for [s]', 2), Column('body', 'body'),
         Column('part', 'part'), Column('obstacle', 'touched'),

@@ -36,8 +36,8 @@ def draw(recording, entry, whole_room):
     _draw_ends(axes, start, task)
     _frame(axes, _bounds(recording, truth + tracked + [task.map_goal], whole_room))
     _legend(axes, recording, entry, bool(robot), bool(truth), bool(tracked))
-    axes.set_title(f'{task.object_id}: {len(pushes)} pushes'
-                   + (' in the room, seen from above' if whole_room else ' seen closely'), loc='left')
+    view = 'in the room, seen from above' if whole_room else 'seen closely'
+    axes.set_title(f'{task.object_id}: {len(pushes)} pushes {view}', loc='left')
     return figure
 
 
@@ -68,7 +68,8 @@ def _draw_pushes(axes, pushes):
 
 def _draw_collisions(axes, recording, collisions):
     for collision in collisions:
-        track = recording.robot if collision.body == 'robot' else recording.truth.get(collision.body)
+        track = (recording.robot if collision.body == 'robot'
+                 else recording.truth.get(collision.body))
         pose = interpolate(track.times_s, track.poses, collision.start_s) if track else None
         if pose is not None:
             axes.plot(pose.x_m, pose.y_m, 'x', markersize=11, markeredgewidth=2.8,
