@@ -15,6 +15,19 @@ using Access = CaseBase::Access;
 
 class CaseBaseTest : public ::testing::Test {
  protected:
+  std::string firstText(const char* sql) const {
+    sqlite3* raw = nullptr;
+    sqlite3_open_v2(file_.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr);
+    sqlite3_stmt* statement = nullptr;
+    sqlite3_prepare_v2(raw, sql, -1, &statement, nullptr);
+    const std::string text = sqlite3_step(statement) == SQLITE_ROW
+                                 ? reinterpret_cast<const char*>(sqlite3_column_text(statement, 0))
+                                 : sqlite3_errmsg(raw);
+    sqlite3_finalize(statement);
+    sqlite3_close(raw);
+    return text;
+  }
+
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "cases.db";
 };
@@ -128,14 +141,14 @@ TEST_F(CaseBaseTest, removesACaseWithItsObservationsAndNeverReusesItsId) {
   EXPECT_EQ(base.cases().size(), 1u);
   EXPECT_GT(base.add(recordedCase(9)), removed);
   EXPECT_EQ(base.observations(kept).size(), 1u);
-  sqlite3* raw = nullptr;
-  ASSERT_EQ(sqlite3_open_v2(file_.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
-  sqlite3_stmt* count = nullptr;
-  sqlite3_prepare_v2(raw, "SELECT count(*) FROM outcomes", -1, &count, nullptr);
-  EXPECT_EQ(sqlite3_step(count), SQLITE_ROW);
-  EXPECT_EQ(sqlite3_column_int(count, 0), 2);
-  sqlite3_finalize(count);
-  sqlite3_close(raw);
+  EXPECT_EQ(firstText("SELECT count(*) FROM outcomes"), "2");
+}
+
+TEST_F(CaseBaseTest, isAWriteAheadLoggedFileThatKnowsWhatItIs) {
+  CaseBase base(file_, Access::kCreate);
+  EXPECT_EQ(firstText("PRAGMA journal_mode"), "wal");
+  EXPECT_EQ(firstText("PRAGMA user_version"), "1");
+  EXPECT_EQ(firstText("PRAGMA application_id"), std::to_string(0x43507368));
 }
 
 TEST_F(CaseBaseTest, unknownCaseIsNamed) {
