@@ -16,57 +16,96 @@ namespace casepush {
 
 /// A push to try for the first time (paper section 3.2): where to start, which way, how long.
 struct PushConfiguration {
-  Pose2 object_T_robot;       ///< Start pose R_0 with respect to the resting object.
-  double direction_rad = 0.0; ///< Of the motion, in the robot frame.
+  Pose2 object_T_robot;        ///< Start pose R_0 with respect to the resting object.
+  double direction_rad = 0.0;  ///< Of the motion, in the robot frame.
   double speed_mps = 0.3;
   double yaw_rate_rps = 0.0;
-  double duration_s = 2.0;    ///< 1 to 3 s in the paper.
+  double duration_s = 2.0;  ///< 1 to 3 s in the paper.
 };
 
 /// What the robot's base should do during a push, in the frame of the object's resting pose.
 struct PushTrajectory {
   double period_s = 0.1;
-  std::vector<Pose2> start_T_robot;  ///< Samples from t = 0.
-  std::vector<Twist2> action;        ///< In the robot frame.
+  std::vector<Pose2> start_T_robot;  ///< Samples from t = 0; at least one.
+  std::vector<Twist2> action;        ///< In the robot frame; as many.
+
+  double durationS() const;           ///< Of the motion: from the first sample to the last.
+  Pose2 poseAt(double t_s) const;     ///< Interpolated; the ends go on for ever.
+  Twist2 actionAt(double t_s) const;  ///< Interpolated.
+
+  /// Heading of the first noticeable motion in the start frame [rad]: how to dock.
+  double startDirectionRad() const;
 };
+
+/// A constant velocity in the robot frame with ramps within the limits (a trapezoid in time).
+/// @throws InputError if a value is not finite, the speed is not positive or above the limit, or
+/// the
+///   duration not in (0, 60] s.
 PushTrajectory pushTrajectory(const PushConfiguration& configuration, const RobotLimits& limits,
                               double period_s);
-/// The pushing phase of a recorded case.
+
+/// The pushing phase of a recorded case. Poses and actions are smoothed over three samples
+/// (1/4, 1/2, 1/4): recordings carry the robot's localisation noise, which a replay would turn into
+/// jerks. A trapezoid at 0.8 m/s^2 changes by 2 mm.
+/// @throws InputError from validateCase.
 PushTrajectory pushTrajectory(const Case& push_case);
 
 struct ExecutePushOptions {
   double sample_period_s = 0.1;
   double approach_speed_mps = 0.5;
   double dock_speed_mps = 0.15;
-  double position_gain = 2.0;     ///< Of trajectory tracking [1/s].
-  double yaw_gain = 2.5;          ///< [1/s]
+  double position_gain = 2.0;  ///< Of trajectory tracking [1/s].
+  double yaw_gain = 2.5;       ///< [1/s]
   double dock_tolerance_m = 0.015;
   double dock_tolerance_rad = 0.03;
-  double rest_speed_mps = 0.02;   ///< Below both for rest_time_s: at rest.
+  double rest_speed_mps = 0.02;  ///< Below both for rest_time_s: at rest.
   double rest_yaw_rate_rps = 0.05;
   double rest_time_s = 0.4;
   double rest_timeout_s = 15.0;
   double approach_timeout_s = 120.0;
-  double stale_robot_s = 0.2;     ///< Age of the robot's pose above which it stops.
-  double lost_object_s = 1.0;     ///< Age of the object's pose above which a push is abandoned.
-  double alpha = 0.01;            ///< Of the prediction test.
-  void validate() const;          ///< @throws InputError listing every violation.
+  double stale_robot_s = 0.2;  ///< Age of the robot's pose above which it stops.
+  double lost_object_s = 1.0;  ///< Age of the object's pose above which a push is abandoned.
+  double alpha = 0.01;         ///< Of the prediction test.
+  void validate() const;       ///< @throws InputError listing every violation.
 };
+
+/// True if the pushed object came to rest where it was seen, so that the push tells something about
+/// the case (also if it missed the object): the outcome is `recorded.start_outcome.mean`.
+bool isObservation(const PushReport& report);
 
 /// Finds the robot's way to `goal` ending straight along `dock_direction_rad` (in the map).
 using ApproachPlanner = std::function<RobotPath(const Observation& observation, const Pose2& goal,
                                                 double dock_direction_rad)>;
 
+/// The approach planner of a push planner: all objects but `object_id` stand around.
+/// @param planner  Must outlive the result.
+ApproachPlanner approachPlanner(const PushPlanner& planner, const std::string& object_id);
+
+/// Every object of an observation but one, as obstacles.
+std::vector<PlacedObject> otherObjects(const Observation& observation, const std::string& but_id);
+
 /// Approaches, pushes, waits until the object rests, and reports: one push from beginning to end.
+///
+/// The robot follows the approach path, docks slowly, and waits until it has seen the object at
+/// rest. That pose is the start frame, in which it follows the push's trajectory: recorded actions
+/// plus feedback on the pose. Then it stands still until the object has come to rest. If docking
+/// nudged the object, it docks anew, a limited number of times.
+///
+/// It commands zero at once, and goes on if things are well again in time, while the robot's pose
+/// is stale or the observation is not finite.
 class ExecutePush : public Behaviour {
  public:
   /// Tries a configuration for the first time.
+  /// @throws InputError from pushTrajectory and the options.
   ExecutePush(std::string object_id, PushConfiguration configuration, RobotModel robot,
               ApproachPlanner approach, ExecutePushOptions options);
   /// Replays a case (practice or plan execution) and tests its prediction.
+  /// @throws InputError from pushTrajectory and the options.
   ExecutePush(std::string object_id, Case push_case, RobotModel robot, ApproachPlanner approach,
               ExecutePushOptions options);
   ~ExecutePush() override;
+  ExecutePush(ExecutePush&&) noexcept;
+  ExecutePush& operator=(ExecutePush&&) noexcept;
 
   Tick tick(const Observation& observation) override;
   std::string describe() const override;

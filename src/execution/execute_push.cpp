@@ -1,0 +1,318 @@
+#include "casepush/execution/execute_push.h"
+
+#include <cmath>
+#include <utility>
+
+#include "approach_motion.h"
+#include "casepush/cases/outcome_statistics.h"
+#include "casepush/common/check.h"
+#include "push_recorder.h"
+#include "violations.h"
+
+namespace casepush {
+namespace {
+
+// An object that stays within this has not been pushed: the scatter of its estimate.
+constexpr double kNotMovedM = 0.02;
+constexpr double kNotMovedRad = 0.05;
+
+}  // namespace
+
+void ExecutePushOptions::validate() const {
+  Violations violations;
+  violations.require("sample_period_s", sample_period_s, 0.02, 1.0);
+  violations.require("approach_speed_mps", approach_speed_mps, 0.02, 5.0);
+  violations.require("dock_speed_mps", dock_speed_mps, 0.02, 5.0);
+  violations.require("position_gain", position_gain, 0.0, 20.0);
+  violations.require("yaw_gain", yaw_gain, 0.0, 20.0);
+  violations.require("dock_tolerance_m", dock_tolerance_m, 0.001, 0.2);
+  violations.require("dock_tolerance_rad", dock_tolerance_rad, 0.001, 0.5);
+  violations.require("rest_speed_mps", rest_speed_mps, 0.001, 0.2);
+  violations.require("rest_yaw_rate_rps", rest_yaw_rate_rps, 0.001, 0.5);
+  violations.require("rest_time_s", rest_time_s, 0.0, 10.0);
+  violations.require("rest_timeout_s", rest_timeout_s, 0.1, 600.0);
+  violations.require("approach_timeout_s", approach_timeout_s, 0.1, 3600.0);
+  violations.require("stale_robot_s", stale_robot_s, 0.01, 2.0);
+  violations.require("lost_object_s", lost_object_s, 0.1, 60.0);
+  violations.require("alpha", alpha, 1e-9, 0.5);
+  violations.throwIfAny("push options");
+}
+
+bool isObservation(const PushReport& report) {
+  return report.outcome == PushOutcome::kDone || report.outcome == PushOutcome::kNotMoved;
+}
+
+struct ExecutePush::Data {
+  Data(std::string id, std::optional<Case> replayed, PushTrajectory push_trajectory,
+       RobotModel robot_model, ApproachPlanner approach_planner,
+       const ExecutePushOptions& push_options)
+      : object_id(std::move(id)),
+        push_case(std::move(replayed)),
+        trajectory(std::move(push_trajectory)),
+        robot(std::move(robot_model)),
+        options(push_options),
+        approach(object_id, trajectory, robot.limits, std::move(approach_planner), options),
+        limiter(robot.limits),
+        robot_watch(options.stale_robot_s),
+        rest(options) {}
+
+  std::string object_id;
+  std::optional<Case> push_case;
+  PushTrajectory trajectory;
+  RobotModel robot;
+  ExecutePushOptions options;
+
+  ApproachMotion approach;
+  CommandLimiter limiter;
+  RobotWatch robot_watch;
+  RestWatch rest;
+  TickClock clock;
+  std::optional<PushRecorder> recorder;
+
+  Phase phase = Phase::kApproach;
+  bool cancelled = false;
+  std::optional<double> began_s;
+  double now_s = 0.0;
+  double push_time_s = 0.0;           ///< Since the push began, without interruptions.
+  double push_end_s = 0.0;            ///< In push time: when the robot stopped.
+  std::optional<ObjectState> object;  ///< Last usable state.
+  PushReport draft;
+  std::optional<PushReport> report;
+
+  Tick run(const Observation& observation);
+  Twist2 move(const Observation& observation, double dt_s);
+  Twist2 approachTick(const Observation& observation, double dt_s);
+  void beginPush(const Observation& observation);
+  Twist2 pushTick(const Observation& observation);
+  Twist2 restTick(const Observation& observation);
+  void conclude();
+  void finish(PushOutcome outcome, const std::string& explanation);
+};
+
+// Also rounds off the report of a push that failed: what was recorded so far stays in it.
+void ExecutePush::Data::finish(PushOutcome outcome, const std::string& explanation) {
+  phase = Phase::kFinished;
+  draft.outcome = outcome;
+  draft.explanation = explanation;
+  draft.object_id = object_id;
+  draft.case_id = push_case ? push_case->id : 0;
+  draft.end_stamp_s = now_s;
+  if (object) {
+    draft.map_T_end = object->map_T_object;
+  }
+  if (recorder) {
+    const double rest_from_s = rest.sinceS() - draft.start_stamp_s;
+    draft.recorded = recorder->finish(rest_from_s, draft.map_T_end);
+    draft.recorded.object = push_case ? push_case->object : object->model;
+    draft.recorded.robot = robot.name;
+  }
+  report = draft;
+}
+
+void ExecutePush::Data::conclude() {
+  const Pose2 start_T_end = draft.map_T_start.inverse() * object->map_T_object;
+  if (push_case) {
+    draft.map_expected = transform(draft.map_T_start, push_case->start_outcome);
+    const OutcomeStatistics past{push_case->start_outcome, push_case->effective_count};
+    draft.test = testPrediction(past, start_T_end, options.alpha);
+  }
+  if (start_T_end.position().norm() < kNotMovedM && std::abs(start_T_end.yaw()) < kNotMovedRad) {
+    finish(PushOutcome::kNotMoved, object_id + " did not move");
+    return;
+  }
+  finish(PushOutcome::kDone, draft.test.rejected ? object_id + " rests elsewhere than predicted"
+                                                 : object_id + " is at rest");
+}
+
+Twist2 ExecutePush::Data::approachTick(const Observation& observation, double dt_s) {
+  if (now_s - *began_s > options.approach_timeout_s) {
+    finish(PushOutcome::kTimeout, "the approach took too long: " + approach.describe());
+    return Twist2{};
+  }
+  const ApproachMotion::Step step = approach.step(observation, object ? &*object : nullptr, dt_s);
+  if (step.failure) {
+    finish(step.failure->outcome, step.failure->explanation);
+    return Twist2{};
+  }
+  if (step.arrived) {
+    beginPush(observation);
+    return pushTick(observation);
+  }
+  phase = approach.docking() ? Phase::kDock : Phase::kApproach;
+  return step.wanted;
+}
+
+void ExecutePush::Data::beginPush(const Observation& observation) {
+  phase = Phase::kPush;
+  push_time_s = 0.0;
+  draft.start_stamp_s = observation.stamp_s;
+  draft.map_T_start = object->map_T_object;
+  recorder.emplace(options.sample_period_s, draft.map_T_start);
+}
+
+Twist2 ExecutePush::Data::pushTick(const Observation& observation) {
+  if (now_s - object->stamp_s > options.lost_object_s) {
+    finish(PushOutcome::kObjectLost, object_id + " was lost from sight during the push");
+    return Twist2{};
+  }
+  const bool is_over = push_time_s >= trajectory.durationS() - 1e-6;
+  Twist2 wanted;
+  if (!is_over) {
+    const Reference reference{draft.map_T_start * trajectory.poseAt(push_time_s),
+                              trajectory.actionAt(push_time_s)};
+    wanted = track(observation.map_T_robot, reference, {options.position_gain, options.yaw_gain});
+  }
+  recorder->add(push_time_s, observation.map_T_robot, object->map_T_object, wanted);
+  if (is_over) {
+    recorder->endPush();
+    push_end_s = push_time_s;
+    phase = Phase::kRest;
+    rest.reset();
+  }
+  return wanted;
+}
+
+Twist2 ExecutePush::Data::restTick(const Observation& observation) {
+  recorder->add(push_time_s, observation.map_T_robot, object->map_T_object, Twist2{});
+  if (rest.isAtRest(*object)) {
+    conclude();
+  } else if (now_s - object->stamp_s > options.lost_object_s) {
+    finish(PushOutcome::kObjectLost, object_id + " was lost from sight while it coasted");
+  } else if (push_time_s - push_end_s > options.rest_timeout_s) {
+    finish(PushOutcome::kTimeout, object_id + " does not come to rest");
+  }
+  return Twist2{};
+}
+
+Twist2 ExecutePush::Data::move(const Observation& observation, double dt_s) {
+  switch (phase) {
+    case Phase::kApproach:
+    case Phase::kDock:
+      return approachTick(observation, dt_s);
+    case Phase::kPush:
+      push_time_s += dt_s;
+      return pushTick(observation);
+    case Phase::kRest:
+      push_time_s += dt_s;
+      return restTick(observation);
+    case Phase::kFinished:
+      break;
+  }
+  return Twist2{};
+}
+
+Tick ExecutePush::Data::run(const Observation& observation) {
+  if (cancelled) {
+    finish(PushOutcome::kCancelled, "cancelled");
+    return {};
+  }
+  const RobotWatch::Status robot_status = robot_watch.check(observation);
+  if (!std::isfinite(observation.stamp_s)) {
+    limiter.stop();
+    return {};
+  }
+  now_s = observation.stamp_s;
+  began_s = began_s.value_or(now_s);
+  const std::optional<double> dt_s = clock.advance(now_s);
+  const ObjectState* seen = observation.object(object_id);
+  if (seen != nullptr && isUsable(*seen)) {
+    object = *seen;
+  }
+  if (!dt_s) {
+    finish(PushOutcome::kTimeout, "time went back");
+  } else if (robot_status == RobotWatch::Status::kLost) {
+    finish(PushOutcome::kRobotLost, "the robot's own pose is not up to date");
+  } else if (robot_status == RobotWatch::Status::kFresh && (seen == nullptr || isUsable(*seen))) {
+    const Twist2 wanted = move(observation, *dt_s);
+    const bool must_stand = phase == Phase::kRest || phase == Phase::kFinished;
+    if (!must_stand) {
+      return {{limiter.limit(wanted, *dt_s)}, BehaviourStatus::kRunning};
+    }
+  } else if (object && now_s - object->stamp_s > options.lost_object_s &&
+             phase != Phase::kApproach) {
+    finish(PushOutcome::kObjectLost, object_id + " was lost from sight");
+  }
+  limiter.stop();
+  return {};
+}
+
+ExecutePush::ExecutePush(std::string object_id, PushConfiguration configuration, RobotModel robot,
+                         ApproachPlanner approach, ExecutePushOptions options) {
+  options.validate();
+  PushTrajectory trajectory = pushTrajectory(configuration, robot.limits, options.sample_period_s);
+  data_ = std::make_unique<Data>(std::move(object_id), std::nullopt, std::move(trajectory),
+                                 std::move(robot), std::move(approach), options);
+}
+
+ExecutePush::ExecutePush(std::string object_id, Case push_case, RobotModel robot,
+                         ApproachPlanner approach, ExecutePushOptions options) {
+  options.validate();
+  PushTrajectory trajectory = pushTrajectory(push_case);
+  data_ = std::make_unique<Data>(std::move(object_id), std::move(push_case), std::move(trajectory),
+                                 std::move(robot), std::move(approach), options);
+}
+
+ExecutePush::~ExecutePush() = default;
+ExecutePush::ExecutePush(ExecutePush&&) noexcept = default;
+ExecutePush& ExecutePush::operator=(ExecutePush&&) noexcept = default;
+
+Tick ExecutePush::tick(const Observation& observation) {
+  Tick tick;
+  if (data_->phase != Phase::kFinished) {
+    tick = data_->run(observation);
+  }
+  if (data_->phase == Phase::kFinished) {
+    const bool is_done = data_->report->outcome == PushOutcome::kDone;
+    tick.status = is_done ? BehaviourStatus::kSucceeded : BehaviourStatus::kFailed;
+    tick.command = Command{};
+  }
+  return tick;
+}
+
+std::string ExecutePush::describe() const {
+  switch (data_->phase) {
+    case Phase::kApproach:
+    case Phase::kDock:
+      return data_->approach.describe();
+    case Phase::kPush:
+      return "pushing " + data_->object_id;
+    case Phase::kRest:
+      return "waiting for " + data_->object_id + " to come to rest";
+    case Phase::kFinished:
+      break;
+  }
+  return data_->report->explanation;
+}
+
+void ExecutePush::cancel() { data_->cancelled = true; }
+
+ExecutePush::Phase ExecutePush::phase() const { return data_->phase; }
+
+const std::optional<PushReport>& ExecutePush::report() const { return data_->report; }
+
+std::vector<PlacedObject> otherObjects(const Observation& observation, const std::string& but_id) {
+  std::vector<PlacedObject> others;
+  for (const ObjectState& object : observation.objects) {
+    if (object.id != but_id && isUsable(object)) {
+      others.push_back({object.id, object.model, object.map_T_object});
+    }
+  }
+  return others;
+}
+
+ApproachPlanner approachPlanner(const PushPlanner& planner, const std::string& object_id) {
+  return [&planner, object_id](const Observation& observation, const Pose2& goal,
+                               double dock_direction_rad) {
+    const ObjectState* object = usableObject(observation, object_id);
+    if (object == nullptr) {
+      RobotPath none;
+      none.explanation = object_id + " is not in sight";
+      return none;
+    }
+    return planner.approachPath({object->id, object->model, object->map_T_object},
+                                otherObjects(observation, object_id), observation.map_T_robot, goal,
+                                dock_direction_rad);
+  };
+}
+
+}  // namespace casepush

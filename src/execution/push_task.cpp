@@ -1,0 +1,408 @@
+#include "casepush/execution/push_task.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "casepush/common/random.h"
+#include "push_task_rules.h"
+#include "watches.h"
+
+namespace casepush {
+namespace {
+
+// A plan that came while the object was moved by more than this is for another start.
+constexpr double kMovedM = 0.05;
+constexpr double kMovedRad = 0.1;
+// Less than this is no progress of a plan's length.
+constexpr double kProgressM = 0.1;
+
+double yawError(const Pose2& a, const Pose2& b) { return std::abs(yawDifference(a, b)); }
+
+}  // namespace
+
+struct PushTask::Data {
+  enum class Stage { kLook, kPlan, kPush, kDone };
+
+  Data(PushTaskGoal push_goal, RobotModel robot_model, PushTaskServices outside,
+       const PushTaskOptions& task_options)
+      : goal(std::move(push_goal)),
+        robot(std::move(robot_model)),
+        services(completeServices(std::move(outside), goal.object_id)),
+        options(task_options),
+        robot_watch(options.push.stale_robot_s),
+        rest(options.push) {}
+
+  PushTaskGoal goal;
+  RobotModel robot;
+  PushTaskServices services;
+  PushTaskOptions options;
+  RobotWatch robot_watch;
+  RestWatch rest;
+  TickClock clock;
+
+  Stage stage = Stage::kLook;
+  PushTaskStatus status = PushTaskStatus::kRunning;
+  PushTaskProgress progress;
+  std::string text = "looking for the object";
+  bool cancelled = false;
+  std::optional<double> began_s;
+  double stage_began_s = 0.0;
+  std::optional<PushPlan> plan;  ///< Its first push is the next one.
+  PlanRequest request;
+  std::optional<ExecutePush> push;
+  int failed_plans = 0;
+  int failed_approaches = 0;
+  int plans_without_progress = 0;
+  double shortest_plan_m = std::numeric_limits<double>::infinity();
+
+  Tick run(const Observation& observation);
+  Tick step(const Observation& observation);
+  Tick look(const Observation& observation);
+  Tick awaitPlan(const Observation& observation);
+  Tick pushOn(const Observation& observation);
+  void enter(Stage next, const char* phase, const std::string& what, double now_s);
+  void end(PushTaskStatus final_status, const std::string& why);
+  void requestPlan(const Observation& observation, const ObjectState& object);
+  void acceptPlan(const PlanResult& result, const Observation& observation);
+  void rejectPlan(const PlanResult& result, const Observation& observation);
+  bool isLimitReached();
+  void startPush(const Observation& observation);
+  void concludePush(const PushReport& report, const Observation& observation);
+  void judgeOutcome(const PushReport& report, const Observation& observation);
+  void replan(const std::string& why, const Observation& observation);
+  void measure(const Observation& observation);
+};
+
+void PushTask::Data::enter(Stage next, const char* phase, const std::string& what, double now_s) {
+  stage = next;
+  stage_began_s = now_s;
+  progress.phase = phase;
+  text = what;
+}
+
+void PushTask::Data::end(PushTaskStatus final_status, const std::string& why) {
+  if (stage == Stage::kPlan) {
+    services.plans->cancel();
+  }
+  stage = Stage::kDone;
+  status = final_status;
+  progress.phase = "done";
+  text = why;
+}
+
+void PushTask::Data::measure(const Observation& observation) {
+  if (const ObjectState* object = usableObject(observation, goal.object_id)) {
+    progress.distance_to_goal_m = distance(object->map_T_object, goal.map_T_goal);
+    progress.yaw_to_goal_rad = yawError(object->map_T_object, goal.map_T_goal);
+  }
+}
+
+Tick PushTask::Data::look(const Observation& observation) {
+  const ObjectState* object = usableObject(observation, goal.object_id);
+  const bool is_fresh =
+      object != nullptr && observation.stamp_s - object->stamp_s <= options.push.lost_object_s;
+  if (is_fresh && rest.isAtRest(*object)) {
+    if (isSafelyAtGoal(goal, *object, options)) {
+      end(PushTaskStatus::kSucceeded, goal.object_id + " is at the goal");
+    } else {
+      requestPlan(observation, *object);
+    }
+  } else if (observation.stamp_s - stage_began_s > options.look_timeout_s) {
+    const std::string why = is_fresh ? " does not come to rest" : " is not in sight";
+    end(PushTaskStatus::kObjectLost, goal.object_id + why);
+  }
+  return {};
+}
+
+void PushTask::Data::requestPlan(const Observation& observation, const ObjectState& object) {
+  request = PlanRequest{};
+  request.object = {object.id, object.model, object.map_T_object};
+  request.map_T_goal = goal.map_T_goal;
+  request.tolerance = goal.tolerance;
+  request.tolerance.position_m *= options.goal_share;
+  request.tolerance.yaw_rad *= options.goal_share;
+  request.map_T_robot = observation.map_T_robot;
+  request.obstacles = otherObjects(observation, goal.object_id);
+  // 31 bits, so that the seed passes through every message and file as a number.
+  request.seed =
+      Random::stream(goal.seed, "plan " + std::to_string(progress.plans)).below(1u << 31);
+  request.deadline_s = options.plan_deadline_s;
+  services.plans->request(request);
+  enter(Stage::kPlan, "planning", "planning", observation.stamp_s);
+}
+
+Tick PushTask::Data::awaitPlan(const Observation& observation) {
+  const std::optional<PlanResult> result = services.plans->poll();
+  if (!result) {
+    return {};
+  }
+  ++progress.plans;
+  if (services.on_plan) {
+    services.on_plan(*result);
+  }
+  if (result->status == PlanStatus::kSolved && !result->plan.pushes.empty()) {
+    acceptPlan(*result, observation);
+  } else {
+    rejectPlan(*result, observation);
+  }
+  return {};
+}
+
+void PushTask::Data::acceptPlan(const PlanResult& result, const Observation& observation) {
+  const ObjectState* object = usableObject(observation, goal.object_id);
+  const Pose2& planned = request.object.map_T_object;
+  if (object != nullptr && (distance(object->map_T_object, planned) > kMovedM ||
+                            yawError(object->map_T_object, planned) > kMovedRad)) {
+    replan(goal.object_id + " was moved during planning", observation);
+    return;
+  }
+  failed_plans = 0;
+  plan = result.plan;
+  const double length_m = plan->lengthM();
+  if (progress.plan_length_m == 0.0) {
+    progress.plan_length_m = length_m;
+  }
+  plans_without_progress = length_m < shortest_plan_m - kProgressM ? 0 : plans_without_progress + 1;
+  shortest_plan_m = std::min(shortest_plan_m, length_m);
+  progress.push_index = 0;
+  progress.push_count = static_cast<int>(plan->pushes.size());
+  startPush(observation);
+}
+
+void PushTask::Data::rejectPlan(const PlanResult& result, const Observation& observation) {
+  const ObjectState* object = usableObject(observation, goal.object_id);
+  switch (result.status) {
+    case PlanStatus::kInvalidRequest:
+    case PlanStatus::kNoCases:
+    case PlanStatus::kGoalInCollision:
+    case PlanStatus::kGoalOutsideMap:
+      end(PushTaskStatus::kInvalidGoal, result.explanation);
+      return;
+    case PlanStatus::kPlannerGone:
+      end(PushTaskStatus::kPlannerGone, result.explanation);
+      return;
+    default:
+      break;
+  }
+  if (object != nullptr && goal.tolerance.isMet(goal.map_T_goal, object->map_T_object)) {
+    end(PushTaskStatus::kSucceeded, goal.object_id + " is at the goal, within the tolerance");
+  } else if (++failed_plans >= options.max_failed_plans) {
+    end(PushTaskStatus::kNoPlan,
+        "no plan after " + std::to_string(failed_plans) + " attempts: " + result.explanation);
+  } else {
+    rest.reset();
+    enter(Stage::kLook, "look", "planning failed, trying again", observation.stamp_s);
+  }
+}
+
+void PushTask::Data::startPush(const Observation& observation) {
+  const PlannedPush& planned = plan->pushes.front();
+  const std::vector<Case> cases = services.cases();
+  const auto found = std::find_if(cases.begin(), cases.end(), [&planned](const Case& candidate) {
+    return candidate.id == planned.case_id;
+  });
+  if (found == cases.end()) {
+    PlanResult unknown;
+    unknown.status = PlanStatus::kUnreachable;
+    unknown.explanation =
+        "the plan uses case " + std::to_string(planned.case_id) + ", which is not known here";
+    rejectPlan(unknown, observation);
+    return;
+  }
+  if (isLimitReached()) {
+    return;
+  }
+  ++progress.push_index;
+  push.emplace(goal.object_id, *found, robot, services.approach, options.push);
+  enter(Stage::kPush, "approach", "approaching", observation.stamp_s);
+}
+
+bool PushTask::Data::isLimitReached() {
+  if (progress.pushes >= options.max_pushes) {
+    end(PushTaskStatus::kNoProgress,
+        "not at the goal after " + std::to_string(progress.pushes) + " pushes: still " +
+            errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad));
+  } else if (progress.replans > options.max_replans) {
+    end(PushTaskStatus::kNoProgress,
+        "not at the goal after " + std::to_string(options.max_replans) + " new plans: still " +
+            errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad));
+  } else if (plans_without_progress >= options.max_plans_without_progress) {
+    end(PushTaskStatus::kNoProgress,
+        std::to_string(plans_without_progress) + " plans in a row brought " + goal.object_id +
+            " no nearer: still " +
+            errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad));
+  }
+  return stage == Stage::kDone;
+}
+
+Tick PushTask::Data::pushOn(const Observation& observation) {
+  static const char* const kPhases[] = {"approach", "dock", "push", "rest", "rest"};
+  const Tick tick = push->tick(observation);
+  progress.phase = kPhases[static_cast<int>(push->phase())];
+  text = push->describe();
+  if (!push->report()) {
+    return tick;
+  }
+  const PushReport report = *push->report();
+  push.reset();
+  if (isObservation(report)) {
+    ++progress.pushes;
+  }
+  if (report.test.rejected) {
+    ++progress.rejected_predictions;
+  }
+  if (services.on_report) {
+    services.on_report(report);
+  }
+  concludePush(report, observation);
+  return {};
+}
+
+void PushTask::Data::concludePush(const PushReport& report, const Observation& observation) {
+  switch (report.outcome) {
+    case PushOutcome::kDone:
+    case PushOutcome::kNotMoved:
+      failed_approaches = 0;
+      judgeOutcome(report, observation);
+      return;
+    case PushOutcome::kApproachFailed:
+      if (++failed_approaches >= options.max_failed_plans) {
+        end(PushTaskStatus::kNoProgress,
+            "the robot can not get to the next push: " + report.explanation);
+      } else {
+        replan(report.explanation, observation);
+      }
+      return;
+    case PushOutcome::kRobotLost:
+      end(PushTaskStatus::kRobotLost, report.explanation);
+      return;
+    case PushOutcome::kObjectLost:
+    case PushOutcome::kTimeout:
+    case PushOutcome::kCancelled:
+      replan(report.explanation, observation);
+      return;
+  }
+}
+
+void PushTask::Data::judgeOutcome(const PushReport& report, const Observation& observation) {
+  const ObjectState* object = usableObject(observation, goal.object_id);
+  if (object == nullptr) {
+    replan(goal.object_id + " is not in sight", observation);
+    return;
+  }
+  if (isSafelyAtGoal(goal, *object, options)) {
+    end(PushTaskStatus::kSucceeded, goal.object_id + " is at the goal");
+    return;
+  }
+  plan->pushes.erase(plan->pushes.begin());
+  if (report.test.rejected) {
+    replan(report.explanation, observation);
+  } else if (plan->pushes.empty()) {
+    replan("the plan ended beside the goal", observation);
+  } else {
+    const PushPlanner::Continuation rest_of_plan = services.continue_plan(
+        *plan, object->map_T_object, services.cases(), otherObjects(observation, goal.object_id));
+    if (!rest_of_plan.valid) {
+      replan(rest_of_plan.explanation, observation);
+    } else {
+      plan = rest_of_plan.plan;
+      startPush(observation);
+    }
+  }
+}
+
+void PushTask::Data::replan(const std::string& why, const Observation& observation) {
+  ++progress.replans;
+  if (!isLimitReached()) {
+    rest.reset();
+    enter(Stage::kLook, "look", "planning anew: " + why, observation.stamp_s);
+  }
+}
+
+Tick PushTask::Data::step(const Observation& observation) {
+  switch (stage) {
+    case Stage::kLook:
+      return look(observation);
+    case Stage::kPlan:
+      return awaitPlan(observation);
+    case Stage::kPush:
+      return pushOn(observation);
+    case Stage::kDone:
+      break;
+  }
+  return {};
+}
+
+Tick PushTask::Data::run(const Observation& observation) {
+  if (cancelled) {
+    end(PushTaskStatus::kCancelled, "cancelled");
+    return {};
+  }
+  if (!services.plans->isAlive()) {
+    end(PushTaskStatus::kPlannerGone, "the planner does not answer");
+    return {};
+  }
+  const RobotWatch::Status robot_status = robot_watch.check(observation);
+  if (!std::isfinite(observation.stamp_s)) {
+    return push ? push->tick(observation) : Tick{};
+  }
+  if (!began_s) {
+    began_s = observation.stamp_s;
+    stage_began_s = observation.stamp_s;
+  }
+  if (!clock.advance(observation.stamp_s)) {
+    end(PushTaskStatus::kTimeout, "time went back");
+  } else if (robot_status == RobotWatch::Status::kLost) {
+    end(PushTaskStatus::kRobotLost, "the robot's own pose is not up to date");
+  } else if (observation.stamp_s - *began_s > goal.time_limit_s) {
+    end(PushTaskStatus::kTimeout,
+        "time is up: still " + errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad));
+  } else if (robot_status == RobotWatch::Status::kFresh || stage == Stage::kPush) {
+    // A push has to know that the robot was stopped, so it sees stale poses too.
+    measure(observation);
+    return step(observation);
+  }
+  return {};
+}
+
+PushTask::PushTask(PushTaskGoal goal, RobotModel robot, PushTaskServices services,
+                   PushTaskOptions options) {
+  options.validate();
+  data_ = std::make_unique<Data>(std::move(goal), std::move(robot), std::move(services), options);
+  data_->progress.phase = "look";
+  const PushTaskGoal& g = data_->goal;
+  if (!g.map_T_goal.isFinite() || !(g.tolerance.position_m > 0.0) || !(g.tolerance.yaw_rad > 0.0) ||
+      !(g.time_limit_s > 0.0)) {
+    data_->end(PushTaskStatus::kInvalidGoal,
+               "the goal pose must be finite, tolerances and time limit positive");
+  }
+}
+
+PushTask::~PushTask() = default;
+
+Tick PushTask::tick(const Observation& observation) {
+  Tick tick;
+  if (data_->stage != Data::Stage::kDone) {
+    tick = data_->run(observation);
+  }
+  if (data_->stage == Data::Stage::kDone) {
+    const bool is_done = data_->status == PushTaskStatus::kSucceeded;
+    tick.command = Command{};
+    tick.status = is_done ? BehaviourStatus::kSucceeded : BehaviourStatus::kFailed;
+  }
+  return tick;
+}
+
+std::string PushTask::describe() const { return data_->text; }
+
+void PushTask::cancel() { data_->cancelled = true; }
+
+PushTaskStatus PushTask::status() const { return data_->status; }
+
+const std::optional<PushPlan>& PushTask::plan() const { return data_->plan; }
+
+const PushTaskProgress& PushTask::progress() const { return data_->progress; }
+
+}  // namespace casepush

@@ -1,0 +1,106 @@
+#include "push_task_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "casepush/common/input_error.h"
+#include "violations.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kSigmas = 2.0;
+
+}  // namespace
+
+const char* toString(PushTaskStatus status) {
+  switch (status) {
+    case PushTaskStatus::kRunning:
+      return "running";
+    case PushTaskStatus::kSucceeded:
+      return "succeeded";
+    case PushTaskStatus::kCancelled:
+      return "cancelled";
+    case PushTaskStatus::kInvalidGoal:
+      return "invalid goal";
+    case PushTaskStatus::kNoPlan:
+      return "no plan";
+    case PushTaskStatus::kPlannerGone:
+      return "planner gone";
+    case PushTaskStatus::kObjectLost:
+      return "object lost";
+    case PushTaskStatus::kRobotLost:
+      return "robot lost";
+    case PushTaskStatus::kNoProgress:
+      return "no progress";
+    case PushTaskStatus::kTimeout:
+      return "timeout";
+  }
+  return "unknown";
+}
+
+void PushTaskOptions::validate() const {
+  push.validate();
+  Violations violations;
+  violations.require("max_replans", max_replans, 0, 100000);
+  violations.require("max_pushes", max_pushes, 1, 100000);
+  violations.require("max_failed_plans", max_failed_plans, 1, 1000);
+  violations.require("max_plans_without_progress", max_plans_without_progress, 1, 100000);
+  violations.require("plan_deadline_s", plan_deadline_s, 0.01, 3600.0);
+  violations.require("look_timeout_s", look_timeout_s, 0.1, 3600.0);
+  violations.require("goal_share", goal_share, 0.1, 1.0);
+  violations.require("goal_margin_m", goal_margin_m, 0.0, 1.0);
+  violations.require("goal_margin_rad", goal_margin_rad, 0.0, 1.0);
+  violations.throwIfAny("push task options");
+}
+
+PushTaskServices completeServices(PushTaskServices services, const std::string& object_id) {
+  const PushPlanner* checker = services.checker;
+  if (services.plans == nullptr || !services.cases) {
+    throw InputError("push task", "a plan client and the cases are required");
+  }
+  if (checker == nullptr && (!services.continue_plan || !services.approach)) {
+    throw InputError("push task", "a checker, or continue_plan and approach, are required");
+  }
+  if (!services.continue_plan) {
+    services.continue_plan = [checker](const PushPlan& rest, const Pose2& map_T_object,
+                                       const std::vector<Case>& cases,
+                                       const std::vector<PlacedObject>& obstacles) {
+      return checker->continuePlan(rest, map_T_object, cases, obstacles);
+    };
+  }
+  if (!services.approach) {
+    services.approach = approachPlanner(*checker, object_id);
+  }
+  return services;
+}
+
+bool isSensible(const PushTaskGoal& goal) {
+  return goal.map_T_goal.isFinite() && goal.tolerance.position_m > 0.0 &&
+         goal.tolerance.yaw_rad > 0.0 && goal.time_limit_s > 0.0;
+}
+
+bool isSafelyAtGoal(const PushTaskGoal& goal, const ObjectState& object,
+                    const PushTaskOptions& options) {
+  const Eigen::Matrix3d& covariance = object.covariance;
+  const double sigma_m = std::sqrt(std::max(0.0, covariance.topLeftCorner<2, 2>().trace()));
+  const double sigma_rad = std::sqrt(std::max(0.0, covariance(2, 2)));
+  const double most = 1.0 - options.goal_share;
+  GoalTolerance tolerance = goal.tolerance;
+  tolerance.position_m -=
+      std::min(most * tolerance.position_m, std::max(options.goal_margin_m, kSigmas * sigma_m));
+  tolerance.yaw_rad -=
+      std::min(most * tolerance.yaw_rad, std::max(options.goal_margin_rad, kSigmas * sigma_rad));
+  return tolerance.isMet(goal.map_T_goal, object.map_T_object);
+}
+
+std::string errorText(double position_m, double yaw_rad) {
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.2f m and %.0f deg from the goal", position_m,
+                yaw_rad * 180.0 / M_PI);
+  return text;
+}
+
+}  // namespace casepush

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "casepush/execution/push_task.h"
+
+namespace casepush {
+
+/// Fills continue_plan and approach from the checker.
+/// @throws InputError if a required service is missing.
+PushTaskServices completeServices(PushTaskServices services, const std::string& object_id);
+
+/// True if the goal pose is finite and tolerances and time limit are positive.
+bool isSensible(const PushTaskGoal& goal);
+
+/// True if the object is within the goal's tolerance by a margin: the pose is observed with some
+/// error, and what counts is where the object really is. The margin is two standard deviations, but
+/// leaves at least goal_share of the tolerance.
+bool isSafelyAtGoal(const PushTaskGoal& goal, const ObjectState& object,
+                    const PushTaskOptions& options);
+
+/// "0.31 m and 12 deg from the goal".
+std::string errorText(double position_m, double yaw_rad);
+
+}  // namespace casepush
