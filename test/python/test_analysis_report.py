@@ -234,6 +234,18 @@ def test_a_bag_cut_off_in_its_index_is_read_completely(demo, tmp_path):
     assert cut.message_count == whole.message_count and len(cut.pushes) == len(whole.pushes)
 
 
+@pytest.mark.parametrize('compression', ['lz4', 'bz2'])
+def test_compressed_chunks_are_salvaged(tmp_path, compression):
+    bag = tmp_path / 'compressed.bag'
+    with rosbag.Bag(str(bag), 'w', compression=compression, chunk_threshold=50000) as target:
+        Story(target, 1).learn(2, 3)
+    whole = read_recording(str(bag), io.StringIO())
+    bag.write_bytes(bag.read_bytes()[:int(0.6 * bag.stat().st_size)])
+    cut = read_recording(str(bag), io.StringIO())
+    assert (len(whole.pushes), whole.notes) == (6, [])
+    assert 0 < len(cut.pushes) < 6 and len(cut.notes) == 1
+
+
 @pytest.mark.parametrize('kind, text', [
     ('missing', 'No such file or directory'), ('folder', 'is a folder, not a bag file'),
     ('empty file', 'the file is empty'), ('text', 'not a bag file'), ('binary', 'not a bag file'),
