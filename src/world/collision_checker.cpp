@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <limits>
-#include <optional>
 #include <sstream>
 
 #include "casepush/common/check.h"
@@ -28,30 +26,33 @@ struct Surroundings {
   CollisionChecker::Columns columns;  ///< Of map and solids.
 };
 
-/// A footprint at a pose: its prisms' shadows in the map are computed once for all cells.
+Eigen::Vector2d columnCorner(const CollisionChecker::Columns& columns, std::size_t column) {
+  const Eigen::Vector2d cell(static_cast<double>(column % columns.width),
+                             static_cast<double>(column / columns.width));
+  return columns.origin_m + columns.resolution_m * cell;
+}
+
+/// A footprint at a pose. Cells are compared in the solid's own frame, where its shadows are ready.
 class PlacedFootprint {
  public:
   PlacedFootprint(const Footprint& footprint, const Pose2& map_T_solid)
-      : footprint_(footprint), map_T_solid_(map_T_solid) {
-    for (const ConvexPart& part : footprint.parts()) {
-      shadows_.push_back(transformed(map_T_solid, part.shadow()));
-    }
-  }
+      : footprint_(footprint), map_T_solid_(map_T_solid), solid_T_map_(map_T_solid.inverse()) {}
 
-  /// How deep the grown solid reaches into the upright box; 0 if not.
-  double depthIn(const Shadow& square, double low_m, double high_m) const {
+  /// How deep the grown solid reaches into the occupied cells of a column of the map; 0 if not.
+  double depthIn(const MapColumns& map, std::size_t column) const {
+    const double resolution_m = map.columns.resolution_m;
+    const Eigen::Vector2d corner = columnCorner(map.columns, column);
+    const Shadow square =
+        transformed(solid_T_map_, rectangle(corner, corner.array() + resolution_m));
+    const Eigen::Vector2d centre = (square.points[0] + square.points[2]) / 2.0;
     double depth = 0.0;
-    for (std::size_t i = 0; i < shadows_.size(); ++i) {
-      const ConvexPart& part = footprint_.parts()[i];
-      if (!part.touches(low_m, high_m)) continue;
-      if (!closerThan(shadows_[i], square, footprint_.margin() - kContactTolerance_m)) continue;
-      Shadow between;
-      if (!part.isPrism()) {
-        between = transformed(map_T_solid_, part.shadow(low_m, high_m));
-        if (between.empty()) continue;
+    for (const ConvexPart& part : footprint_.parts()) {
+      const double discs_m = part.disc().radius_m + footprint_.margin() + resolution_m * M_SQRT1_2;
+      if ((part.disc().centre_m - centre).squaredNorm() > discs_m * discs_m) continue;
+      for (std::uint32_t run = map.first_run[column]; run < map.first_run[column + 1]; ++run) {
+        depth = std::max(depth, depthIn(square, part, map.runs[run].low * resolution_m,
+                                        map.runs[run].high * resolution_m));
       }
-      const double gap = separation(part.isPrism() ? shadows_[i] : between, square);
-      depth = std::max(depth, footprint_.margin() - gap);
     }
     return depth > kContactTolerance_m ? depth : 0.0;
   }
@@ -59,10 +60,10 @@ class PlacedFootprint {
   /// How far the grown solid reaches out of the rectangle; 0 if not.
   double depthOutside(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m) const {
     double depth = 0.0;
-    for (const Shadow& shadow : shadows_) {
+    for (const ConvexPart& part : footprint_.parts()) {
       Eigen::Vector2d low;
       Eigen::Vector2d high;
-      shadowBounds(shadow, &low, &high);
+      shadowBounds(transformed(map_T_solid_, part.shadow()), &low, &high);
       const double beyond = std::max((min_m - low).maxCoeff(), (high - max_m).maxCoeff());
       depth = std::max(depth, beyond + footprint_.margin());
     }
@@ -70,9 +71,18 @@ class PlacedFootprint {
   }
 
  private:
+  double depthIn(const Shadow& square, const ConvexPart& part, double low_m, double high_m) const {
+    if (!part.touches(low_m, high_m)) return 0.0;
+    const double margin_m = footprint_.margin();
+    if (!closerThan(part.shadow(), square, margin_m - kContactTolerance_m)) return 0.0;
+    if (part.isPrism()) return margin_m - separation(part.shadow(), square);
+    const Shadow between = part.shadow(low_m, high_m);
+    return between.empty() ? 0.0 : margin_m - separation(between, square);
+  }
+
   const Footprint& footprint_;
   Pose2 map_T_solid_;
-  std::vector<Shadow> shadows_;
+  Pose2 solid_T_map_;
 };
 
 /// Calls `visit(column index)` for the columns that the mask test hits until it returns true.
@@ -101,24 +111,6 @@ bool visitHits(const CollisionChecker::Columns& columns, const Footprint& footpr
     if ((bits[index] & entry.slices) != 0 && visit(static_cast<std::size_t>(index))) return true;
   }
   return false;
-}
-
-/// Deepest overlap with a cell of one column of the map.
-double depthInColumn(const MapColumns& map, const PlacedFootprint& placed, std::size_t column,
-                     Eigen::Vector2d* centre_m) {
-  const double resolution_m = map.columns.resolution_m;
-  const Eigen::Vector2d corner =
-      map.columns.origin_m +
-      resolution_m * Eigen::Vector2d(static_cast<double>(column % map.columns.width),
-                                     static_cast<double>(column / map.columns.width));
-  const Shadow square = rectangle(corner, corner.array() + resolution_m);
-  *centre_m = corner.array() + resolution_m / 2.0;
-  double depth = 0.0;
-  for (std::uint32_t run = map.first_run[column]; run < map.first_run[column + 1]; ++run) {
-    depth = std::max(depth, placed.depthIn(square, map.runs[run].low * resolution_m,
-                                           map.runs[run].high * resolution_m));
-  }
-  return depth;
 }
 
 /// Deepest overlap of the footprint with a part of the obstacle; `part` names it.
@@ -200,15 +192,13 @@ bool CollisionChecker::collides(const Footprint& footprint, const Pose2& map_T_s
                  footprint.resolution() << " m, map " << data_->map->columns.resolution_m << " m");
   if (!map_T_solid.isFinite()) return true;
   const MapColumns& map = *data_->map;
-  std::optional<PlacedFootprint> placed;
-  if (data_->mayReachOut(footprint, map_T_solid)) {
-    placed.emplace(footprint, map_T_solid);
-    if (placed->depthOutside(map.min_m, map.max_m) > 0.0) return true;
+  const PlacedFootprint placed(footprint, map_T_solid);
+  if (data_->mayReachOut(footprint, map_T_solid) &&
+      placed.depthOutside(map.min_m, map.max_m) > 0.0) {
+    return true;
   }
   const bool hits_map = visitHits(map.columns, footprint, map_T_solid, [&](std::size_t column) {
-    if (!placed) placed.emplace(footprint, map_T_solid);
-    Eigen::Vector2d centre;
-    return depthInColumn(map, *placed, column, &centre) > 0.0;
+    return placed.depthIn(map, column) > 0.0;
   });
   if (hits_map) return true;
   for (std::size_t i = 0; i < data_->around->placed.size(); ++i) {
@@ -234,11 +224,10 @@ std::vector<Contact> CollisionChecker::contacts(const Footprint& footprint,
   outside.depth_m = placed.depthOutside(map.min_m, map.max_m);
   Contact cell;
   visitHits(map.columns, footprint, map_T_solid, [&](std::size_t column) {
-    Eigen::Vector2d centre;
-    const double depth = depthInColumn(map, placed, column, &centre);
+    const double depth = placed.depthIn(map, column);
     if (depth > cell.depth_m) {
       cell.depth_m = depth;
-      cell.where_m = centre;
+      cell.where_m = columnCorner(map.columns, column).array() + map.columns.resolution_m / 2.0;
     }
     return false;
   });

@@ -115,6 +115,7 @@ ConvexPart::ConvexPart(const PlacedShape& shape) : name_(shape.part) {
       makePolytope(prismVertices(cylinder, frame_T_shape), prismEdges());
     }
   }
+  disc_ = boundingDisc(outline_);
 }
 
 void ConvexPart::makeDisc(const Eigen::Vector3d& centre, double radius_m, double half_height_m) {
@@ -138,8 +139,6 @@ void ConvexPart::makePolytope(std::vector<Eigen::Vector3d> vertices, Edges edges
   vertices_ = std::move(vertices);
   edges_ = std::move(edges);
 }
-
-Shadow ConvexPart::shadow() const { return outline_; }
 
 Shadow ConvexPart::shadow(double low_m, double high_m) const {
   if (!touches(low_m, high_m)) return Shadow();

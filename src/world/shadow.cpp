@@ -74,6 +74,16 @@ Shadow transformed(const Pose2& a_T_b, const Shadow& b_shadow) {
   return result;
 }
 
+BoundingDisc boundingDisc(const Shadow& shadow) {
+  BoundingDisc disc;
+  for (int i = 0; i < shadow.count; ++i) disc.centre_m += shadow.points[i] / shadow.count;
+  for (int i = 0; i < shadow.count; ++i) {
+    disc.radius_m = std::max(disc.radius_m, (shadow.points[i] - disc.centre_m).norm());
+  }
+  disc.radius_m += shadow.radius_m;
+  return disc;
+}
+
 Shadow rectangle(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m) {
   Shadow result;
   result.count = 4;
@@ -111,6 +121,9 @@ double overlapDepth(const ConvexPart& a, const Pose2& map_T_a, const ConvexPart&
   const double low = std::max(a.heights().low_m, b.heights().low_m);
   const double high = std::min(a.heights().high_m, b.heights().high_m);
   if (high - low <= kContactTolerance_m) return 0.0;
+  const double discs_m = a.disc().radius_m + b.disc().radius_m + margin_m;
+  const Eigen::Vector2d apart = map_T_a * a.disc().centre_m - map_T_b * b.disc().centre_m;
+  if (apart.squaredNorm() > discs_m * discs_m) return 0.0;
   const auto depthBetween = [&](double from, double to) {
     const Shadow shadow_a = a.shadow(from, to);
     const Shadow shadow_b = b.shadow(from, to);

@@ -26,6 +26,13 @@ struct Shadow {
 /// Shadow given in frame b, in frame a.
 Shadow transformed(const Pose2& a_T_b, const Shadow& b_shadow);
 
+/// A disc that covers the shadow; conservative, not the smallest.
+struct BoundingDisc {
+  Eigen::Vector2d centre_m{0.0, 0.0};
+  double radius_m = 0.0;
+};
+BoundingDisc boundingDisc(const Shadow& shadow);
+
 /// Axis-aligned rectangle.
 Shadow rectangle(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m);
 
@@ -53,9 +60,10 @@ class ConvexPart {
   Shadow shadow(double low_m, double high_m) const;
 
   /// Shadow of the whole part.
-  Shadow shadow() const;
+  const Shadow& shadow() const { return outline_; }
 
   const HeightRange& heights() const { return heights_; }
+  const BoundingDisc& disc() const { return disc_; }  ///< Around shadow().
   double reach() const { return reach_m_; }   ///< Largest horizontal distance from the origin [m].
   bool isPrism() const { return is_prism_; }  ///< Same shadow at each of its heights.
   bool isSphere() const { return is_sphere_; }
@@ -76,6 +84,7 @@ class ConvexPart {
   double reach_m_ = 0.0;
   bool is_prism_ = false;
   bool is_sphere_ = false;
+  BoundingDisc disc_;
   Shadow outline_;  ///< Of the whole part; for a sphere its equator.
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<std::array<int, 2>> edges_;  ///< Of polytopes that are no prisms.
