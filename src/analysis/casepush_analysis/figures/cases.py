@@ -42,8 +42,9 @@ def _draw_case(axes, case):
     geometry.ellipse(axes, case.outcome, style.SIGMAS_95, facecolor=style.EXPECTED,
                      edgecolor='#b8860b', alpha=0.4, linewidth=0.8, zorder=3)
     geometry.heading(axes, case.outcome.mean, 0.14, _OBJECT, zorder=7, width=1.6)
-    for pose, colour in ((pushing[0], _ROBOT), (case.outcome.mean, _OBJECT)):
-        style.label(axes, str(case.case_id), pose.x_m, pose.y_m, colour, 8.5)
+    number, start, end = str(case.case_id), pushing[0], case.outcome.mean
+    style.label(axes, number, start.x_m, start.y_m, _ROBOT, 8.5, (-14, -10))
+    style.label(axes, number, end.x_m, end.y_m, _OBJECT, 8.5)
     axes.plot(pushing[0].x_m, pushing[0].y_m, 'o', markersize=9, markerfacecolor='#2ca02c30',
               markeredgecolor=_ROBOT, zorder=6)
     geometry.heading(axes, pushing[0], 0.1, _ROBOT, zorder=6, width=1.4)

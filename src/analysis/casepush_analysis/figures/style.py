@@ -51,9 +51,9 @@ def save(figure, path):
                    bbox_inches='tight', pad_inches=0.12)
 
 
-def label(axes, text, x, y, colour, size):
+def label(axes, text, x, y, colour, size, offset=(4, 4)):
     """A small text beside a point, legible on any background."""
-    axes.annotate(text, (x, y), xytext=(4, 4), textcoords='offset points', fontsize=size,
+    axes.annotate(text, (x, y), xytext=offset, textcoords='offset points', fontsize=size,
                   fontweight='bold', color=colour, zorder=9,
                   path_effects=[withStroke(linewidth=2.0, foreground='white')])
 

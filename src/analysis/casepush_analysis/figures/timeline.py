@@ -18,7 +18,8 @@ def draw(segments, pushes, start_s, title):
     rows = {name: len(names) - 1 - i for i, name in enumerate(names)}
     for name in names:
         bars = [(s.start_s - start_s, s.duration_s) for s in busy if s.phase == name]
-        axes.broken_barh(bars, (rows[name] - 0.36, 0.72), facecolors=colours[name], linewidth=0.0)
+        axes.broken_barh(bars, (rows[name] - 0.36, 0.72), facecolors=colours[name],
+                         edgecolors=colours[name], linewidth=0.3)
     _mark_rejections(axes, pushes, start_s, len(names))
     axes.set_yticks([rows[n] for n in names])
     axes.set_yticklabels([f'{n}  ({sum(s.duration_s for s in busy if s.phase == n):.1f} s)'
