@@ -40,6 +40,14 @@ OutcomeSource firstSource(CaseOrigin origin) {
   return OutcomeSource::kTransferred;
 }
 
+// Names go into one-line messages and into YAML, which takes no control characters.
+void requirePrintable(const std::string& name, const std::string& where) {
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (std::any_of(name.begin(), name.end(), is_control)) {
+    throw InputError(where, "holds a control character; must be a text on one line");
+  }
+}
+
 // What is known of the observations behind a case that comes without its history: the only one, or
 // the one that its steps recorded.
 std::vector<ObservedOutcome> firstHistory(const Case& push_case) {
@@ -90,7 +98,10 @@ Case CaseBase::get(std::int64_t id) const { return existingCase(database_->sqlit
 
 std::int64_t CaseBase::add(const Case& push_case) {
   SqliteDatabase& sqlite = database_->sqlite;
-  validateCase(push_case, sqlite.file() + ": new case");
+  const std::string where = sqlite.file() + ": new case";
+  validateCase(push_case, where);
+  requirePrintable(push_case.object, where + ": object");
+  requirePrintable(push_case.robot, where + ": robot");
   SqliteTransaction transaction(sqlite, Kind::kWrite);
   const std::int64_t id = insertCase(sqlite, {push_case, firstHistory(push_case)});
   transaction.commit();

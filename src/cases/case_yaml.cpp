@@ -30,19 +30,14 @@ std::string exact(double value) {
 }
 
 std::string quoted(const std::string& text) {
-  static const char kHex[] = "0123456789ABCDEF";
   std::string yaml = "\"";
   for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {
-      yaml += {'\\', c};
-    } else if (byte < 0x20 || byte == 0x7f) {
-      yaml += {'\\', 'x', kHex[byte >> 4], kHex[byte & 15]};
-    } else {
-      yaml += c;
+      yaml += '\\';
     }
+    yaml += c;
   }
-  return yaml + "\"";
+  return yaml + '"';
 }
 
 void appendNumbers(std::string& yaml, std::initializer_list<double> values) {

@@ -166,6 +166,8 @@ TEST_F(CaseBaseTest, badValuesAreRefusedAndNothingIsStored) {
   Case broken = recordedCase(10);
   broken.steps[3].action.vx_mps = std::nan("");
   expectRefusal(inputErrorOf([&] { base.add(broken); }), file_, "new case: steps[3]");
+  expectRefusal(inputErrorOf([&] { base.add(recordedCase(10, 5, "two\nlines")); }), file_,
+                "new case: object: holds a control character");
   EXPECT_TRUE(base.cases().empty());
 
   const std::int64_t id = base.add(recordedCase(11));

@@ -53,7 +53,7 @@ TEST_F(CaseYaml, roundTripIsExact) {
   CaseBase base(folder_ / "a.db", Access::kCreate);
   for (int i = 0; i < 8; ++i) {
     Case push_case =
-        recordedCase(100 + i, 1 + 7 * i, i % 2 == 0 ? "chair" : "say: \"#1\" {t\\able}\n\t");
+        recordedCase(100 + i, 1 + 7 * i, i % 2 == 0 ? "chair" : "say: \"#1\" {t\\able}");
     push_case.origin = static_cast<CaseOrigin>(i % 3);
     push_case.robot = i == 3 ? "" : "cobot";
     push_case.steps[0].action.vx_mps = std::pow(10.0, random.uniform(-320.0, 300.0));
