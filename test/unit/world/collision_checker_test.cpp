@@ -163,6 +163,27 @@ WorldModel roomWith(const StaticBox& box) {
   return world;
 }
 
+TEST(CollisionCheckerTest, neverMissesTheTipOfALongBar) {
+  // Only the bar's corner is in the cell, at the farthest from the origin, where half a heading bin
+  // is 4 cm.
+  WorldModel world;
+  world.min_m = {0, 0};
+  world.max_m = {6, 6};
+  Map map = mapOf(world, 0.05);
+  map.addSurvey({{3.025F, 3.025F, 0.525F}});
+  const CollisionChecker checker(map);
+  const Solid bar{{Box{{1.6, 0.04, 0.2}}, placed(0.8, 0, 0.5), "bar"}};
+  const auto footprint = checker.footprint(bar);
+  Random random(13);
+  for (int i = 0; i < 20000; ++i) {
+    const double yaw = random.uniform(-M_PI, M_PI);
+    const Eigen::Vector2d corner(1.6, random.chance(0.5) ? 0.02 : -0.02);
+    const Eigen::Vector2d tip(random.uniform(3.0005, 3.0495), random.uniform(3.0005, 3.0495));
+    const Eigen::Vector2d origin = tip - Pose2(0, 0, yaw) * corner;
+    ASSERT_TRUE(checker.collides(*footprint, {origin.x(), origin.y(), yaw})) << yaw;
+  }
+}
+
 TEST(CollisionCheckerTest, tableTopPassesAboveALowBox) {
   const Solid table{{Box{{0.8, 0.4, 0.04}}, placed(0, 0, 0.80), "top"},
                     {Cylinder{0.03, 0.8}, placed(-0.35, 0, 0.4), "leg"}};
