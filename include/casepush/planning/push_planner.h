@@ -10,23 +10,28 @@
 #include "casepush/model/object_model.h"
 #include "casepush/model/push_plan.h"
 #include "casepush/model/robot_model.h"
+#include "casepush/planning/push_time.h"
 #include "casepush/planning/robot_path_planner.h"
+#include "casepush/planning/similarity.h"
 #include "casepush/world/map.h"
 
 namespace casepush {
 
-enum class Similarity { kMetric, kPaper };  ///< Of method.md: default metric, or eq. 3 as printed.
-
 struct PushPlannerOptions {
   Similarity similarity = Similarity::kMetric;
-  double goal_bias = 0.2;       ///< Probability that the sample is the goal (paper: 0.95).
-  int max_nodes = 50625;        ///< Paper section 6.
-  double zeta = 3.0;            ///< Spread of the sigma points (paper: 3).
-  double object_margin_m = 0.0;   ///< Grows the object in every check.
-  double robot_margin_m = 0.03;   ///< Grows the robot along its recorded trajectories.
-  int solutions = 16;           ///< Solutions to compare before the cheapest is returned.
+  double goal_bias = 0.2;              ///< Probability that the sample is the goal (paper: 0.95).
+  int max_nodes = 50625;               ///< Paper section 6.
+  double zeta = 3.0;                   ///< Spread of the sigma points (paper: 3).
+  double object_margin_m = 0.0;        ///< Grows the object in every check.
+  double robot_margin_m = 0.03;        ///< Grows the robot along its recorded trajectories.
+  int solutions = 16;                  ///< Solutions to compare before the cheapest is returned.
+  int improvement_extensions = 20000;  ///< Search for cheaper plans after the first one.
+  double spacing_m = 0.05;  ///< Of tree nodes nearer than this only the cheaper one grows.
+  double selection_radius_m =
+      1.0;               ///< The cheapest node within up to this of a sample is extended.
+  PushTimeOptions time;  ///< What the robot's way between pushes costs.
   RobotPathOptions robot_path;
-  void validate() const;        ///< @throws InputError listing every violation.
+  void validate() const;  ///< @throws InputError listing every violation.
 };
 
 /// Plans chains of cases that bring an object to a goal, achievable for object and robot.
@@ -34,9 +39,14 @@ struct PushPlannerOptions {
 /// Exp-RRT (paper algorithm 1) with the choices of docs/method.md. Each push is checked with the
 /// object's mean trajectory, its sigma points and the robot's trajectory; a plan whose next start
 /// pose the robot cannot reach is not returned.
-/// Deterministic for a given request and seed unless the deadline cuts it off.
+/// Where no plan exists that is safe at the sigma points of `zeta`, e.g. because the object stands
+/// in a tight spot, smaller whole values down to 0 (the mean only) are tried one after the other;
+/// the plan holds the one it is safe for, and the explanation says so. Deterministic for a given
+/// request and seed unless the deadline cuts it off: all budgets count nodes and extensions. Thread
+/// safety: const methods are reentrant.
 class PushPlanner {
  public:
+  /// @throws InputError if the map is empty or an option is out of bounds.
   PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
               std::map<std::string, ObjectModel> objects, PushPlannerOptions options);
   ~PushPlanner();
@@ -46,8 +56,9 @@ class PushPlanner {
   PlanResult plan(const PlanRequest& request, const std::vector<Case>& cases,
                   const std::function<bool()>& stop = {}) const;
 
-  /// Does the rest of a plan still work if its first push starts from `map_T_object`? Re-anchors the
-  /// chain at the observed pose and checks collisions and goal. Empty explanation: yes.
+  /// Does the rest of a plan still work if its first push starts from `map_T_object`? Re-anchors
+  /// the chain at the observed pose and checks collisions (at the plan's zeta) and goal. Empty
+  /// explanation: yes.
   struct Continuation {
     bool valid = false;
     std::string explanation;

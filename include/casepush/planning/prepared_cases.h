@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "casepush/model/case.h"
+
+namespace casepush {
+
+/// What planning needs of a case, worked out once. All poses are in the start frame.
+struct PreparedCase {
+  std::int64_t id = 0;
+  PoseGaussian start_outcome;
+  std::vector<Pose2> start_T_sigma;   ///< Sigma points besides the mean (paper eq. 5, 6).
+  std::vector<Pose2> start_T_object;  ///< Mean object trajectory, in the order to be checked.
+  std::vector<Pose2> start_T_robot;   ///< Robot trajectory, in the order to be checked.
+  Pose2 robot_begin;                  ///< start_T_robot when the push starts.
+  Pose2 outcome_T_robot;              ///< Where the robot stops, seen from the resting object.
+  double push_direction_rad = 0.0;    ///< Heading of the robot's first motion in the start frame.
+  double duration_s = 0.0;            ///< Of the push and of the object's coasting.
+};
+
+/// Prepares cases for collision checking.
+///
+/// Trajectories are re-sampled so that no point of the body moves more than `step_m` between
+/// neighbouring poses, and ordered coarse to fine, so that most collisions show early.
+/// @param zeta  Spread of the sigma points; 0 leaves the mean only.
+/// @pre Every case passes validateCase; step_m > 0.
+std::vector<PreparedCase> prepareCases(const std::vector<Case>& cases, double zeta, double step_m,
+                                       double object_radius_m, double robot_radius_m);
+
+/// Heading of the robot's first motion in a case, in the frame of the resting object [rad].
+double pushDirection(const Case& push_case);
+
+}  // namespace casepush

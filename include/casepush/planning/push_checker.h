@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+
+#include "casepush/planning/clearance_field.h"
+#include "casepush/planning/prepared_cases.h"
+#include "casepush/world/collision_checker.h"
+
+namespace casepush {
+
+/// Why a case cannot be applied somewhere.
+enum class PushConflict {
+  kNone,
+  kOutcome,       ///< The object at the mean outcome or a sigma point of it.
+  kObjectMotion,  ///< The object on its way.
+  kRobotMotion,   ///< The robot on its way.
+};
+const char* toString(PushConflict conflict);
+
+/// Tests whether pushes are safe among a map and obstacles (paper Alg. 1, COLLIDING).
+///
+/// The object is tested at the seven sigma points of its outcome and along its mean trajectory, the
+/// robot along its recorded trajectory, all with their true 3-D shapes.
+/// Not thread-safe: it counts its tests.
+class PushChecker {
+ public:
+  /// A solid that moves, and the radius of a circle around its origin that holds it.
+  struct Body {
+    std::shared_ptr<const Footprint> footprint;
+    double radius_m = 0.0;
+  };
+
+  /// @param object, robot  With whatever margin they should be tested with.
+  PushChecker(CollisionChecker checker, Body object, Body robot);
+
+  /// Lets the object's motion overlap the surroundings near its start as deep as it does there,
+  /// e.g. when it stands at a wall whose cells are coarse. Outcomes must be free all the same.
+  void tolerateStart(const Pose2& map_T_start);
+
+  /// The first conflict found if the object is pushed from rest at `map_T_object`.
+  PushConflict conflict(const PreparedCase& push_case, const Pose2& map_T_object);
+
+  /// Does the object itself fit there? The tolerated start does.
+  bool isFree(const Pose2& map_T_object);
+
+  const CollisionChecker& collisions() const { return checker_; }
+  int checkCount() const { return check_count_; }  ///< Poses tested so far.
+
+ private:
+  bool isTolerated(const Pose2& map_T_object) const;
+  bool objectCollidesOnItsWay(const PreparedCase& push_case, const Pose2& map_T_start);
+  bool collides(const Body& body, const Pose2& map_T_x);
+  bool anyCollides(const Body& body, const Pose2& map_T_start, const std::vector<Pose2>& start_T_x);
+
+  CollisionChecker checker_;
+  ClearanceField clearance_;
+  Body object_;
+  Body robot_;
+  Pose2 tolerated_start_;
+  double tolerated_depth_m_ = 0.0;
+  int check_count_ = 0;
+};
+
+}  // namespace casepush

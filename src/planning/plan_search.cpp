@@ -1,0 +1,189 @@
+#include "plan_search.h"
+
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace casepush {
+namespace {
+
+namespace ob = ompl::base;
+using Se2 = ob::SE2StateSpace;
+
+// Improving a plan must leave time for the robot's paths to be verified.
+constexpr double kImprovementShare = 0.5;
+
+ob::SpaceInformationPtr makeSpace(PushChecker* checker) {
+  const CollisionChecker::Columns& columns = checker->collisions().columns();
+  ob::RealVectorBounds bounds(2);
+  bounds.setLow(0, columns.origin_m.x());
+  bounds.setLow(1, columns.origin_m.y());
+  bounds.setHigh(0, columns.origin_m.x() + columns.width * columns.resolution_m);
+  bounds.setHigh(1, columns.origin_m.y() + columns.height * columns.resolution_m);
+  const auto se2 = std::make_shared<Se2>();
+  se2->setBounds(bounds);
+  const auto space = std::make_shared<ob::SpaceInformation>(se2);
+  space->setStateValidityChecker([checker](const ob::State* state) {
+    const auto* pose = state->as<Se2::StateType>();
+    return checker->isFree(Pose2(pose->getX(), pose->getY(), pose->getYaw()));
+  });
+  space->setup();
+  return space;
+}
+
+ob::ProblemDefinitionPtr makeDefinition(const ob::SpaceInformationPtr& space,
+                                        const PlanRequest& request) {
+  const auto definition = std::make_shared<ob::ProblemDefinition>(space);
+  ob::ScopedState<Se2> start(space);
+  start->setXY(request.object.map_T_object.x(), request.object.map_T_object.y());
+  start->setYaw(request.object.map_T_object.yaw());
+  definition->addStartState(start);
+  definition->setGoal(std::make_shared<PushGoal>(space, request.map_T_goal, request.tolerance));
+  return definition;
+}
+
+std::vector<PreparedCase> prepare(const SearchProblem& problem, double step_m, double zeta) {
+  return prepareCases(problem.cases, zeta, step_m, problem.object.radius_m, problem.robot.radius_m);
+}
+
+ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& space,
+               PushChecker* checker, double zeta) {
+  const PushPlannerOptions& options = problem.options;
+  ExpRrtOptions rrt;
+  rrt.similarity = options.similarity;
+  rrt.goal_bias = options.goal_bias;
+  rrt.max_nodes = options.max_nodes;
+  rrt.gyration_radius_m = problem.object.gyration_radius_m;
+  rrt.spacing_m = options.spacing_m;
+  rrt.selection_radius_m = options.selection_radius_m;
+  rrt.seed = problem.request.seed;
+  const double step_m = 0.5 * checker->collisions().columns().resolution_m;
+  std::vector<PreparedCase> cases = prepare(problem, step_m, zeta);
+  const PushTime time(cases, options.time);
+  const Pose2 object_T_robot =
+      problem.request.object.map_T_object.inverse() * problem.request.map_T_robot;
+  return ExpRrt(space, checker, std::move(cases), time, object_T_robot, rrt);
+}
+
+}  // namespace
+
+SearchClock::SearchClock(double deadline_s, std::function<bool()> stop)
+    : begin_(std::chrono::steady_clock::now()), deadline_s_(deadline_s), stop_(std::move(stop)) {}
+
+bool SearchClock::isCancelled() const { return stop_ && stop_(); }
+
+bool SearchClock::isOver(double share) const {
+  return isCancelled() || elapsedS() >= share * deadline_s_;
+}
+
+double SearchClock::elapsedS() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta)
+    : problem_(problem),
+      zeta_(zeta),
+      space_(makeSpace(checker)),
+      definition_(makeDefinition(space_, problem.request)),
+      rrt_(makeRrt(problem, space_, checker, zeta)),
+      path_checker_(checker->collisions()) {
+  rrt_.setProblemDefinition(definition_);
+  rrt_.setup();
+}
+
+PlanSearch::End PlanSearch::run(const SearchClock& clock) {
+  while (true) {
+    if (rrt_.solutions().empty() && !findFirst(clock)) {
+      if (clock.isOver()) {
+        return End::kStopped;
+      }
+      return rrt_.tree().size() >= problem_.options.max_nodes ? End::kNodeLimit : End::kExhausted;
+    }
+    improve(clock);
+    const int candidate = rrt_.solutions().front();
+    const std::optional<int> unreachable = findUnreachable(rrt_.chain(candidate), clock);
+    if (!unreachable) {
+      return End::kStopped;
+    }
+    if (*unreachable < 0) {
+      solution_ = candidate;
+      return End::kFound;
+    }
+    rrt_.reject(*unreachable);
+  }
+}
+
+bool PlanSearch::findFirst(const SearchClock& clock) {
+  rrt_.solve(ob::PlannerTerminationCondition([&clock] { return clock.isOver(); }));
+  return !rrt_.solutions().empty();
+}
+
+void PlanSearch::improve(const SearchClock& clock) {
+  const int limit = rrt_.extensionCount() + problem_.options.improvement_extensions;
+  const ob::PlannerTerminationCondition stop([this, limit, &clock] {
+    return rrt_.extensionCount() >= limit || clock.isOver(kImprovementShare);
+  });
+  const auto wanted = static_cast<std::size_t>(problem_.options.solutions);
+  std::size_t before = 0;
+  while (rrt_.solutions().size() < wanted && rrt_.solutions().size() > before) {
+    before = rrt_.solutions().size();
+    rrt_.solve(stop);
+  }
+}
+
+std::optional<int> PlanSearch::findUnreachable(const std::vector<int>& chain,
+                                               const SearchClock& clock) {
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    if (std::find(approachable_.begin(), approachable_.end(), chain[i]) != approachable_.end()) {
+      continue;
+    }
+    if (clock.isOver()) {
+      return std::nullopt;
+    }
+    if (!canApproach(chain[i])) {
+      return chain[i];
+    }
+    approachable_.push_back(chain[i]);
+  }
+  return -1;
+}
+
+bool PlanSearch::canApproach(int node) {
+  const PushNode& pushed = rrt_.tree().node(node);
+  const PushNode& start = rrt_.tree().node(pushed.parent);
+  const PreparedCase& push_case = rrt_.cases()[pushed.push];
+  const Pose2& map_T_object = start.map_T_object;
+  const Pose2 map_T_robot = start.parent == PushNode::kRoot
+                                ? problem_.request.map_T_robot
+                                : map_T_object * rrt_.cases()[start.push].outcome_T_robot;
+  std::vector<PlacedSolid> standing = problem_.obstacles;
+  standing.push_back({problem_.object.solid, map_T_object});
+  path_checker_.setObstacles(std::move(standing));
+  const RobotPath path =
+      problem_.paths.plan(path_checker_, map_T_robot, map_T_object * push_case.robot_begin,
+                          wrapAngle(map_T_object.yaw() + push_case.push_direction_rad));
+  if (!path.found) {
+    approach_problem_ = path.explanation;
+  }
+  return path.found;
+}
+
+PushPlan PlanSearch::plan() const {
+  PushPlan plan;
+  plan.object = problem_.request.object;
+  plan.map_T_goal = problem_.request.map_T_goal;
+  plan.tolerance = problem_.request.tolerance;
+  plan.zeta = zeta_;
+  const std::vector<int> nodes = rrt_.chain(solution_);
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const PreparedCase& push_case = rrt_.cases()[rrt_.tree().node(nodes[i]).push];
+    const Pose2& map_T_start = rrt_.tree().node(nodes[i - 1]).map_T_object;
+    plan.pushes.push_back(
+        {push_case.id, map_T_start, transform(map_T_start, push_case.start_outcome)});
+  }
+  return plan;
+}
+
+}  // namespace casepush

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <ompl/base/ProblemDefinition.h>
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/planning/push_planner.h"
+#include "exp_rrt.h"
+
+namespace casepush {
+
+/// Ends a search: somebody's wish or a time limit.
+class SearchClock {
+ public:
+  SearchClock(double deadline_s, std::function<bool()> stop);
+
+  bool isCancelled() const;
+  /// True once cancelled or `share` of the time until the deadline has passed.
+  bool isOver(double share = 1.0) const;
+  double elapsedS() const;
+
+ private:
+  std::chrono::steady_clock::time_point begin_;
+  double deadline_s_;
+  std::function<bool()> stop_;
+};
+
+/// What a search works with; all must outlive it.
+struct SearchProblem {
+  const PlanRequest& request;
+  const std::vector<Case>& cases;  ///< All of the request's object, at least one.
+  const ObjectModel& object;
+  const RobotModel& robot;
+  const PushPlannerOptions& options;
+  const RobotPathPlanner& paths;
+  const std::vector<PlacedSolid>& obstacles;
+};
+
+/// One search with one spread of sigma points: grows an Exp-RRT, compares its solutions by expected
+/// time and verifies that the robot can get to every push of the cheapest.
+class PlanSearch {
+ public:
+  PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta);
+
+  enum class End { kFound, kExhausted, kNodeLimit, kStopped };
+  End run(const SearchClock& clock);
+
+  PushPlan plan() const;  ///< @pre run() returned kFound.
+  double expectedS() const { return rrt_.tree().node(solution_).cost_s; }
+  const ExpRrt& rrt() const { return rrt_; }
+
+  /// Why the robot could not get to a push of a rejected plan; empty if none was rejected.
+  const std::string& approachProblem() const { return approach_problem_; }
+
+ private:
+  bool findFirst(const SearchClock& clock);
+  void improve(const SearchClock& clock);
+  /// The first node of the chain that the robot cannot push to; -1 if there is none; nothing if
+  /// the clock ran out.
+  std::optional<int> findUnreachable(const std::vector<int>& chain, const SearchClock& clock);
+  bool canApproach(int node);
+
+  SearchProblem problem_;
+  double zeta_;
+  ompl::base::SpaceInformationPtr space_;
+  ompl::base::ProblemDefinitionPtr definition_;
+  ExpRrt rrt_;
+  CollisionChecker path_checker_;
+  std::vector<int> approachable_;  // nodes whose push the robot can get to
+  std::string approach_problem_;
+  int solution_ = -1;
+};
+
+}  // namespace casepush

@@ -1,0 +1,96 @@
+#include "casepush/planning/prepared_cases.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "casepush/common/check.h"
+
+namespace casepush {
+namespace {
+
+// Poses of a trajectory such that no point within `radius_m` moves more than `step_m` in between.
+std::vector<Pose2> resample(const std::vector<Pose2>& poses, double step_m, double radius_m) {
+  std::vector<Pose2> result = {poses.front()};
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Pose2 from = result.back();
+    const double motion_m =
+        distance(from, poses[i]) + radius_m * std::abs(yawDifference(from, poses[i]));
+    if (motion_m < step_m && i + 1 < poses.size()) {
+      continue;  // The next pose is compared with the last one kept, so that nothing adds up.
+    }
+    const int pieces = std::max(1, static_cast<int>(std::ceil(motion_m / step_m)));
+    for (int k = 1; k <= pieces; ++k) {
+      result.push_back(interpolate(from, poses[i], static_cast<double>(k) / pieces));
+    }
+  }
+  return result;
+}
+
+// The last pose, then every 16th, then the 8ths in between, and so on.
+std::vector<Pose2> coarseToFine(const std::vector<Pose2>& poses) {
+  std::vector<Pose2> result = {poses.back()};
+  std::vector<bool> taken(poses.size(), false);
+  taken.back() = true;
+  for (std::size_t stride = 16; stride > 0; stride /= 2) {
+    for (std::size_t i = 0; i < poses.size(); i += stride) {
+      if (!taken[i]) {
+        taken[i] = true;
+        result.push_back(poses[i]);
+      }
+    }
+  }
+  return result;
+}
+
+PreparedCase prepare(const Case& push_case, double zeta, double step_m, double object_radius_m,
+                     double robot_radius_m) {
+  PreparedCase prepared;
+  prepared.id = push_case.id;
+  prepared.start_outcome = push_case.start_outcome;
+  if (zeta > 0.0) {
+    const auto sigma = sigmaPoints(push_case.start_outcome, zeta);
+    prepared.start_T_sigma.assign(sigma.begin() + 1, sigma.end());
+  }
+  std::vector<Pose2> object;
+  std::vector<Pose2> robot;
+  for (const CaseStep& step : push_case.steps) {
+    object.push_back(step.start_T_object);
+    robot.push_back(step.start_T_robot());
+  }
+  prepared.start_T_object = coarseToFine(resample(object, step_m, object_radius_m));
+  prepared.start_T_robot = coarseToFine(resample(robot, step_m, robot_radius_m));
+  prepared.robot_begin = robot.front();
+  prepared.outcome_T_robot = push_case.start_outcome.mean.inverse() * robot.back();
+  prepared.push_direction_rad = pushDirection(push_case);
+  prepared.duration_s = push_case.durationS();
+  return prepared;
+}
+
+}  // namespace
+
+std::vector<PreparedCase> prepareCases(const std::vector<Case>& cases, double zeta, double step_m,
+                                       double object_radius_m, double robot_radius_m) {
+  CASEPUSH_CHECK(step_m > 0.0, "step " << step_m);
+  std::vector<PreparedCase> prepared;
+  prepared.reserve(cases.size());
+  for (const Case& push_case : cases) {
+    CASEPUSH_CHECK(!push_case.steps.empty(), "case " << push_case.id << " has no steps");
+    prepared.push_back(prepare(push_case, zeta, step_m, object_radius_m, robot_radius_m));
+  }
+  return prepared;
+}
+
+double pushDirection(const Case& push_case) {
+  constexpr double kMoving_mps = 0.01;
+  for (const CaseStep& step : push_case.steps) {
+    if (step.action.speed() > kMoving_mps) {
+      const double robot_direction_rad = std::atan2(step.action.vy_mps, step.action.vx_mps);
+      return wrapAngle(push_case.steps.front().start_T_robot().yaw() + robot_direction_rad);
+    }
+  }
+  // A push that only turns: towards the object.
+  const Eigen::Vector2d towards = -push_case.steps.front().start_T_robot().position();
+  return std::atan2(towards.y(), towards.x());
+}
+
+}  // namespace casepush

@@ -1,0 +1,312 @@
+#include "casepush/planning/push_planner.h"
+
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <utility>
+
+#include "casepush/common/check.h"
+#include "casepush/common/input_error.h"
+#include "plan_request.h"
+#include "plan_search.h"
+
+namespace casepush {
+namespace {
+
+constexpr std::size_t kShownEdges = 4000;  // More than can be told apart on a screen.
+
+std::vector<double> zetaLevels(double zeta) {
+  std::vector<double> levels = {zeta};
+  for (double level = std::ceil(zeta) - 1.0; level >= 0.0; level -= 1.0) {
+    levels.push_back(level);
+  }
+  return levels;
+}
+
+std::string rounded(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.*f", digits, value);
+  return text;
+}
+
+void addTree(const ExpRrt& rrt, PlanResult* result) {
+  const PushTree& tree = rrt.tree();
+  result->nodes += tree.size();
+  result->tree.clear();
+  for (int id = 0; id < tree.size() && result->tree.size() < kShownEdges; ++id) {
+    const PushNode& node = tree.node(id);
+    if (!tree.isRemoved(id) && node.parent != PushNode::kRoot) {
+      result->tree.push_back({tree.node(node.parent).map_T_object, node.map_T_object});
+    }
+  }
+}
+
+std::string solvedText(const PlanSearch& search, const PushPlan& plan, double wanted_zeta) {
+  std::string text = std::to_string(plan.pushes.size()) + " pushes over " +
+                     rounded(plan.lengthM(), 1) + " m, about " + rounded(search.expectedS(), 0) +
+                     " s";
+  if (plan.zeta < wanted_zeta) {
+    text +=
+        "; safe only for zeta " + rounded(plan.zeta, 1) + " instead of " + rounded(wanted_zeta, 1);
+  }
+  return text;
+}
+
+std::string unreachableText(PlanSearch::End end, const PlanSearch& search, int max_nodes) {
+  std::string text = end == PlanSearch::End::kNodeLimit
+                         ? "no plan within " + std::to_string(max_nodes) +
+                               " poses; raise max_nodes, learn more cases or move the goal"
+                         : "no case leads any farther after " +
+                               std::to_string(search.rrt().tree().size()) +
+                               " poses; clear some space, learn more cases or move the goal";
+  if (!search.approachProblem().empty()) {
+    text += " (the robot could not get to a push: " + search.approachProblem() + ")";
+  }
+  return text;
+}
+
+PlanResult failed(PlanStatus status, std::string explanation) {
+  PlanResult result;
+  result.status = status;
+  result.explanation = std::move(explanation);
+  return result;
+}
+
+}  // namespace
+
+struct PushPlanner::Data {
+  struct Footprints {
+    std::shared_ptr<const Footprint> exact;
+    std::shared_ptr<const Footprint> grown;
+  };
+
+  std::shared_ptr<const Map> map;
+  RobotModel robot;
+  ObjectModels objects;
+  PushPlannerOptions options;
+  CollisionChecker checker;
+  RobotPathPlanner paths;
+  std::shared_ptr<const Footprint> robot_footprint;
+  std::map<std::string, Footprints> footprints;
+
+  CollisionChecker checkerWith(const std::vector<PlacedSolid>& obstacles) const {
+    CollisionChecker copy = checker;
+    copy.setObstacles(obstacles);
+    return copy;
+  }
+
+  PushChecker pushChecker(const std::string& model,
+                          const std::vector<PlacedSolid>& obstacles) const {
+    return PushChecker(
+        checkerWith(obstacles),
+        {footprints.at(model).grown, objects.at(model).radius_m + options.object_margin_m},
+        {robot_footprint, robot.radius_m + options.robot_margin_m});
+  }
+
+  PlanResult search(const PlanRequest& request, const std::vector<Case>& cases,
+                    const SearchClock& clock) const;
+};
+
+void PushPlannerOptions::validate() const {
+  std::ostringstream violations;
+  const auto require = [&violations](bool ok, const char* key, double value, const char* bound) {
+    if (!ok) {
+      violations << (violations.tellp() > 0 ? "; " : "") << key << " is " << value << ", must be "
+                 << bound;
+    }
+  };
+  require(goal_bias >= 0.0 && goal_bias <= 1.0, "goal_bias", goal_bias, "in [0, 1]");
+  require(max_nodes >= 1 && max_nodes <= 10000000, "max_nodes", max_nodes, "in [1, 10000000]");
+  require(zeta >= 0.0 && zeta <= 10.0, "zeta", zeta, "in [0, 10]");
+  require(object_margin_m >= 0.0 && object_margin_m <= 1.0, "object_margin_m", object_margin_m,
+          "in [0, 1]");
+  require(robot_margin_m >= 0.0 && robot_margin_m <= 1.0, "robot_margin_m", robot_margin_m,
+          "in [0, 1]");
+  require(solutions >= 1, "solutions", solutions, "at least 1");
+  require(improvement_extensions >= 0, "improvement_extensions", improvement_extensions,
+          "at least 0");
+  require(spacing_m > 0.0 && spacing_m <= 1.0, "spacing_m", spacing_m, "in (0, 1]");
+  require(selection_radius_m >= 0.0 && selection_radius_m <= 5.0, "selection_radius_m",
+          selection_radius_m, "in [0, 5]");
+  require(time.drive_speed_mps > 0.0, "time.drive_speed_mps", time.drive_speed_mps, "positive");
+  require(time.turn_rate_rps > 0.0, "time.turn_rate_rps", time.turn_rate_rps, "positive");
+  require(time.clearance_m >= 0.0, "time.clearance_m", time.clearance_m, "at least 0");
+  require(time.handling_s >= 0.0, "time.handling_s", time.handling_s, "at least 0");
+  if (violations.tellp() > 0) {
+    throw InputError("push planner options", violations.str());
+  }
+}
+
+PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
+                         std::map<std::string, ObjectModel> objects, PushPlannerOptions options) {
+  CASEPUSH_CHECK(map != nullptr, "no map");
+  options.validate();
+  if (map->empty()) {
+    throw InputError("map", "is empty; load or scan one before planning");
+  }
+  CollisionChecker checker(*map);
+  RobotPathPlanner paths(robot, options.robot_path);
+  data_ = std::make_unique<Data>(Data{std::move(map),
+                                      std::move(robot),
+                                      std::move(objects),
+                                      options,
+                                      std::move(checker),
+                                      std::move(paths),
+                                      {},
+                                      {}});
+  data_->robot_footprint = data_->checker.footprint(data_->robot.solid, options.robot_margin_m);
+  for (const auto& [name, model] : data_->objects) {
+    Data::Footprints& footprints = data_->footprints[name];
+    footprints.exact = data_->checker.footprint(model.solid);
+    footprints.grown = options.object_margin_m > 0.0
+                           ? data_->checker.footprint(model.solid, options.object_margin_m)
+                           : footprints.exact;
+  }
+}
+
+PushPlanner::~PushPlanner() = default;
+
+PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>& cases,
+                             const std::function<bool()>& stop) const {
+  const SearchClock clock(request.deadline_s, stop);
+  if (const auto problem = checkRequest(request, data_->objects)) {
+    return failed(problem->status, problem->explanation);
+  }
+  std::vector<Case> own;
+  for (const Case& push_case : cases) {
+    if (push_case.object == request.object.model) {
+      own.push_back(push_case);
+    }
+  }
+  PlanResult result;
+  if (own.empty()) {
+    result = failed(PlanStatus::kNoCases,
+                    "there are no cases for \"" + request.object.model + "\"; learn some first");
+  } else {
+    try {
+      for (const Case& push_case : own) {
+        validateCase(push_case, "case " + std::to_string(push_case.id));
+      }
+      result = data_->search(request, own, clock);
+    } catch (const InputError& error) {
+      result = failed(PlanStatus::kInvalidRequest, error.what());
+    }
+  }
+  result.planning_s = clock.elapsedS();
+  return result;
+}
+
+PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vector<Case>& cases,
+                                     const SearchClock& clock) const {
+  const std::vector<PlacedSolid> obstacles = placeObstacles(request.obstacles, objects);
+  const Footprints& own = footprints.at(request.object.model);
+  PushChecker push_checker = pushChecker(request.object.model, obstacles);
+  if (const auto problem = checkStartAndGoal(request, push_checker.collisions(), *own.exact)) {
+    return failed(problem->status, problem->explanation);
+  }
+  push_checker.tolerateStart(request.object.map_T_object);
+  const SearchProblem problem{request, cases,    objects.at(request.object.model), robot, options,
+                              paths,   obstacles};
+  PlanResult result;
+  for (const double zeta : zetaLevels(options.zeta)) {
+    PlanSearch search(problem, &push_checker, zeta);
+    const PlanSearch::End end = search.run(clock);
+    addTree(search.rrt(), &result);
+    result.collision_checks = push_checker.checkCount();
+    if (end == PlanSearch::End::kFound) {
+      result.status = PlanStatus::kSolved;
+      result.plan = search.plan();
+      result.explanation = solvedText(search, result.plan, options.zeta);
+      return result;
+    }
+    if (end == PlanSearch::End::kStopped) {
+      const bool cancelled = clock.isCancelled();
+      result.status = cancelled ? PlanStatus::kCancelled : PlanStatus::kDeadline;
+      result.explanation = cancelled ? "cancelled while planning"
+                                     : "no plan within " + rounded(request.deadline_s, 1) +
+                                           " s; allow more time or move the goal";
+      return result;
+    }
+    result.status = PlanStatus::kUnreachable;
+    result.explanation = unreachableText(end, search, options.max_nodes);
+  }
+  return result;
+}
+
+PushPlanner::Continuation PushPlanner::continuePlan(
+    const PushPlan& rest, const Pose2& map_T_object, const std::vector<Case>& cases,
+    const std::vector<PlacedObject>& obstacles) const {
+  Continuation result;
+  const auto model = data_->objects.find(rest.object.model);
+  if (model == data_->objects.end()) {
+    result.explanation = "unknown object model \"" + rest.object.model + "\"";
+    return result;
+  }
+  if (!map_T_object.isFinite()) {
+    result.explanation = "the object's pose is not finite";
+    return result;
+  }
+  result.explanation = checkObstacles(obstacles, data_->objects);
+  if (!result.explanation.empty()) {
+    return result;
+  }
+  PushChecker checker =
+      data_->pushChecker(rest.object.model, placeObstacles(obstacles, data_->objects));
+  checker.tolerateStart(map_T_object);
+  const double step_m = 0.5 * checker.collisions().columns().resolution_m;
+  result.plan = rest;
+  result.plan.object.map_T_object = map_T_object;
+  Pose2 pose = map_T_object;
+  for (std::size_t i = 0; i < rest.pushes.size(); ++i) {
+    PlannedPush& push = result.plan.pushes[i];
+    const std::string name =
+        "push " + std::to_string(i + 1) + " (case " + std::to_string(push.case_id) + ")";
+    const Case* found = nullptr;
+    for (const Case& push_case : cases) {
+      found = push_case.id == push.case_id ? &push_case : found;
+    }
+    if (found == nullptr) {
+      result.explanation = name + ": the case no longer exists";
+      return result;
+    }
+    const PreparedCase prepared =
+        prepareCases({*found}, rest.zeta, step_m, model->second.radius_m, data_->robot.radius_m)
+            .front();
+    const PushConflict conflict = checker.conflict(prepared, pose);
+    if (conflict != PushConflict::kNone) {
+      result.explanation = name + ": " + toString(conflict);
+      return result;
+    }
+    push.map_T_start = pose;
+    push.map_outcome = transform(pose, found->start_outcome);
+    pose = push.map_outcome.mean;
+  }
+  if (!rest.tolerance.isMet(rest.map_T_goal, pose)) {
+    result.explanation = "the rest of the plan now ends at " + describe(pose) + ", " +
+                         rounded(distance(pose, rest.map_T_goal), 2) + " m from the goal";
+    return result;
+  }
+  result.valid = true;
+  return result;
+}
+
+RobotPath PushPlanner::approachPath(const PlacedObject& object,
+                                    const std::vector<PlacedObject>& obstacles,
+                                    const Pose2& map_T_robot, const Pose2& map_T_goal,
+                                    double dock_direction_rad) const {
+  std::vector<PlacedObject> standing = obstacles;
+  standing.push_back(object);
+  RobotPath path;
+  path.explanation = checkObstacles(standing, data_->objects);
+  if (!path.explanation.empty()) {
+    return path;
+  }
+  if (!map_T_robot.isFinite() || !map_T_goal.isFinite() || !std::isfinite(dock_direction_rad)) {
+    path.explanation = "the robot's pose or goal is not finite";
+    return path;
+  }
+  const CollisionChecker checker = data_->checkerWith(placeObstacles(standing, data_->objects));
+  return data_->paths.plan(checker, map_T_robot, map_T_goal, dock_direction_rad);
+}
+
+}  // namespace casepush

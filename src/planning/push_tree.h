@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "casepush/common/pose2.h"
+#include "casepush/planning/pose_grid.h"
+
+namespace casepush {
+
+/// A resting pose of the object in the search tree, and how it came there.
+struct PushNode {
+  static constexpr int kRoot = -1;
+
+  Pose2 map_T_object;
+  int parent = kRoot;   ///< Node that it was pushed from; kRoot for the start.
+  int push = -1;        ///< Index of the case that brought it here.
+  double cost_s = 0.0;  ///< Expected time since the start.
+};
+
+/// The tree of Exp-RRT: nodes, which (node, case) pairs were tried, and which nodes may grow.
+///
+/// A node is *open* while it has an untried case and no cheaper node stands at (nearly) the same
+/// pose; only open nodes are found by queries. Not thread-safe.
+class PushTree {
+ public:
+  /// @param spacing_m  Of two nodes nearer than about this (in the metric) only the cheaper grows.
+  PushTree(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m, double rho_m,
+           double spacing_m, int case_count);
+
+  void clear();
+
+  int size() const { return static_cast<int>(nodes_.size()); }
+  const PushNode& node(int id) const { return nodes_[id]; }
+  bool isOpen(int id) const { return state_[id] == State::kOpen; }
+  bool isRemoved(int id) const { return state_[id] == State::kRemoved; }
+
+  /// Adds a node unless another one that costs no more stands at the same pose; -1 if so.
+  /// @param grows  False for a node that is never to be extended, e.g. in the goal: always added.
+  int add(const PushNode& node, bool grows);
+
+  bool isTried(int id, int push) const;
+  /// Notes that a case has been tried from a node; the last one closes the node.
+  void markTried(int id, int push);
+  /// As markTried, but forgotten by removeSubtree: what was turned down for its cost.
+  void markPostponed(int id, int push);
+
+  /// Takes a node out of the search until the next removeSubtree.
+  void close(int id);
+
+  /// Removes a node and all below it. What was turned down in favour of them gets a new chance.
+  void removeSubtree(int id);
+
+  const PoseGrid& open() const { return open_; }
+  /// Ids of the open nodes in a fixed order.
+  const std::vector<int>& openIds() const { return open_ids_; }
+
+ private:
+  enum class State : std::uint8_t { kOpen, kClosed, kRemoved };
+
+  std::uint64_t cell(const Pose2& pose) const;
+  void openNode(int id);
+  void reopenAll();
+
+  double rho_m_;
+  double spacing_m_;
+  int case_count_;
+  std::vector<PushNode> nodes_;
+  std::vector<State> state_;
+  std::vector<bool> grows_;
+  std::vector<int> untried_;
+  std::vector<int> open_position_;  // index into open_ids_
+  std::vector<bool> tried_;         // case_count_ entries for each node
+  std::vector<std::pair<int, int>> postponed_;
+  std::unordered_map<std::uint64_t, int> cheapest_;  // node of each cell
+  PoseGrid open_;
+  std::vector<int> open_ids_;
+};
+
+}  // namespace casepush
