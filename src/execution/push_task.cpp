@@ -158,7 +158,6 @@ void PushTask::Data::acceptPlan(const PlanResult& result, const Observation& obs
     replan(goal.object_id + " was moved during planning", observation);
     return;
   }
-  failed_plans = 0;
   plan = result.plan;
   const double length_m = plan->lengthM();
   if (progress.plan_length_m == 0.0) {
@@ -214,6 +213,7 @@ void PushTask::Data::startPush(const Observation& observation) {
   if (isLimitReached()) {
     return;
   }
+  failed_plans = 0;
   ++progress.push_index;
   push.emplace(goal.object_id, *found, robot, services.approach, options.push);
   enter(Stage::kPush, "approach", "approaching", observation.stamp_s);
