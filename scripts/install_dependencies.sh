@@ -7,7 +7,7 @@ packages="
   catkin ros-desktop-full-dev rosbash librviz-dev librostest-dev
   libboost-dev libbullet-dev libcli11-dev libeigen3-dev libfcl-dev libgtest-dev liboctomap-dev
   libompl-dev libsqlite3-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
-  python3 python3-jinja2 python3-matplotlib python3-numpy python3-pandas python3-pytest
+  python3 python3-jinja2 python3-matplotlib python3-numpy python3-pytest
   python3-rosbag python3-rostest python3-yaml
 "
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 namespace casepush {
 namespace {
@@ -16,7 +17,9 @@ double steadySeconds() {
 }  // namespace
 
 void addCommonOptions(CLI::App& command, CommonOptions& options) {
-  command.add_option("--seed", options.seed, "Fixes everything random")->capture_default_str();
+  command.add_option("--seed", options.seed, "Fixes everything random")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+      ->capture_default_str();
   command.add_flag("--json", options.json, "Print one JSON object on stdout; logs go to stderr");
 }
 
@@ -31,8 +34,7 @@ void printResult(const nlohmann::ordered_json& result, bool json) {
   }
 }
 
-ProgressLine::ProgressLine(bool enabled)
-    : enabled_(enabled), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
   if (open_) {
@@ -41,7 +43,7 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::show(const std::string& text) {
-  if (!enabled_ || text == last_) {
+  if (text.empty() || text == last_) {
     return;
   }
   last_ = text;

@@ -15,7 +15,7 @@ constexpr int kExitBadInput = 2;
 
 /// Options that every subcommand has.
 struct CommonOptions {
-  std::uint64_t seed = 1;
+  std::int64_t seed = 1;
   bool json = false;
 };
 
@@ -37,12 +37,11 @@ void printResult(const nlohmann::ordered_json& result, bool json);
 /// Shows one line of progress on stderr, over the previous one on a terminal.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool enabled);
+  ProgressLine();
   ~ProgressLine();
-  void show(const std::string& text);
+  void show(const std::string& text);  ///< Nothing happens if the text is empty or the same.
 
  private:
-  bool enabled_;
   bool terminal_;
   bool open_ = false;
   std::string last_;

@@ -32,8 +32,8 @@ std::string progressText(const LearningProgress& now, double elapsed_s) {
                      std::to_string(now.cases) + ", practice " +
                      std::to_string(now.practice_number) + "/" + std::to_string(now.practices);
   const int done = (now.case_number - 1) * now.practices + now.practice_number - 1;
-  if (done > 0) {
-    const double left_s = elapsed_s / done * (now.cases * now.practices - done);
+  if (now.pushes > 0) {
+    const double left_s = elapsed_s / now.pushes * (now.cases * now.practices - done);
     text += ", about " + durationText(left_s) + " left";
   }
   return text;
@@ -48,7 +48,7 @@ int learn(const LearnArguments& arguments) {
   options.exploration.validate();
   const std::string name = catalog.object(arguments.object).name;
   CaseBase case_base(arguments.case_base, CaseBase::Access::kCreate);
-  ProgressLine line(true);
+  ProgressLine line;
   const LearningResult result = learnInLab(catalog, arguments.object, arguments.robot, case_base,
                                            options, [&](const LearningProgress& now) {
                                              line.show(progressText(now, watch.seconds()));

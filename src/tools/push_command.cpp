@@ -1,4 +1,8 @@
+#include <cmath>
+#include <cstdio>
 #include <memory>
+#include <string>
+#include <tuple>
 
 #include "command.h"
 #include "task_arguments.h"
@@ -6,18 +10,50 @@
 namespace casepush {
 namespace {
 
+/// Generous, so that a slow or busy machine does not change the result of a seed.
+constexpr double kPlanDeadlineS = 120.0;
+
 struct PushArguments {
   TaskArguments task;
   bool no_adapt = false;
   double time_limit_s = 1200.0;
 };
 
+/// One line for each plan and each push; the shorter phases in between would only flicker.
 std::string progressText(const PushTask& task) {
   const PushTaskProgress& now = task.progress();
-  return now.phase + ": push " + std::to_string(now.push_index) + " of " +
-         std::to_string(now.push_count) + ", " + std::to_string(now.pushes) + " done, " +
-         std::to_string(now.replans) + " re-plans";
+  if (now.phase != "push" && now.phase != "planning") {
+    return "";
+  }
+  char text[160];
+  if (now.phase == "planning") {
+    std::snprintf(text, sizeof text, "planning, %d pushes and %d re-plans so far", now.pushes,
+                  now.replans);
+  } else {
+    std::snprintf(text, sizeof text,
+                  "push %d of %d (%d in all, %d re-plans), %.2f m and %.0f deg to go",
+                  now.push_index, now.push_count, now.pushes + 1, now.replans,
+                  now.distance_to_goal_m, std::abs(now.yaw_to_goal_rad) * 180.0 / M_PI);
+  }
+  return text;
 }
+
+/// Shows each change of the text once: the distances in it change all the time.
+class PushProgress {
+ public:
+  void update(const PushTask& task) {
+    const PushTaskProgress& now = task.progress();
+    const auto state = std::make_tuple(now.phase, now.pushes, now.replans);
+    if (state != last_) {
+      last_ = state;
+      line_.show(progressText(task));
+    }
+  }
+
+ private:
+  ProgressLine line_;
+  std::tuple<std::string, int, int> last_;
+};
 
 nlohmann::ordered_json pushJson(const PushReport& report) {
   return {{"case", report.case_id},
@@ -39,10 +75,11 @@ int push(const PushArguments& arguments) {
   options.lab.simulator.seed = arguments.task.common.seed;
   options.adapt = !arguments.no_adapt;
   options.time_limit_s = arguments.time_limit_s;
-  ProgressLine line(true);
+  options.task.plan_deadline_s = kPlanDeadlineS;
+  PushProgress progress;
   const PushRunResult result =
       runPushTask(task.catalog, task.problem, task.cases, task.map, options,
-                  [&](const PushTask& now) { line.show(progressText(now)); });
+                  [&](const PushTask& now) { progress.update(now); });
   nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
   for (const PushReport& report : result.reports) {
     pushes.push_back(pushJson(report));

@@ -1,0 +1,176 @@
+"""The `casepush` command as its users call it."""
+
+import json
+import os
+import shutil
+import subprocess
+
+import pytest
+
+DATA = os.path.join(os.path.dirname(__file__), "..", "data")
+CHAIR_CASES = os.path.join(DATA, "office_chair_cases.yaml")
+
+
+def casepush(*arguments, timeout=100):
+    return subprocess.run(["rosrun", "casepush", "casepush", *map(str, arguments)],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          timeout=timeout, check=False)
+
+
+def result_of(process):
+    """The one JSON object on stdout."""
+    lines = process.stdout.strip().splitlines()
+    assert len(lines) == 1, process.stdout + process.stderr
+    return json.loads(lines[0])
+
+
+def without_timing(process):
+    result = result_of(process)
+    assert set(result.pop("timing")) >= {"wall_s"}
+    return json.dumps(result)
+
+
+@pytest.fixture(scope="module")
+def case_base(tmp_path_factory):
+    file = tmp_path_factory.mktemp("cases") / "chair.db"
+    process = casepush("cases", "import", "--case-base", file, CHAIR_CASES, "--json")
+    assert process.returncode == 0, process.stderr
+    assert result_of(process)["imported"] == 14
+    return file
+
+
+def test_help_explains_every_command():
+    process = casepush("--help")
+    assert process.returncode == 0
+    for word in ("learn", "plan", "push", "cases", "Exit code"):
+        assert word in process.stdout
+    for command in ("learn", "plan", "push", "cases"):
+        assert casepush(command, "--help").returncode == 0
+
+
+def test_learns_stores_and_resumes(tmp_path):
+    file = tmp_path / "cases.db"
+    arguments = ("learn", "--object", "office_chair", "--case-base", file, "--practices", 3,
+                 "--seed", 5, "--json")
+    first = casepush(*arguments, "--cases", 2)
+    assert first.returncode == 0, first.stderr
+    result = result_of(first)
+    assert result["success"] and len(result["cases"]) == 2
+    assert all(case["observations"] == 3 for case in result["cases"])
+    resumed = casepush(*arguments, "--cases", 3)
+    assert resumed.returncode == 0, resumed.stderr
+    again = result_of(resumed)
+    assert len(again["cases"]) == 3
+    assert again["cases"][:2] == result["cases"]
+    assert "learning case 3/3" in resumed.stderr
+
+
+def test_same_seed_gives_same_bytes(tmp_path, case_base):
+    learn = ("learn", "--object", "office_chair", "--cases", 1, "--practices", 3, "--seed", 9)
+    runs = [casepush(*learn, "--case-base", tmp_path / name, "--json") for name in ("a.db", "b.db")]
+    assert without_timing(runs[0]) == without_timing(runs[1])
+    plan = ("plan", "--object", "office_chair", "--case-base", case_base, "--seed", 3, "--json")
+    assert without_timing(casepush(*plan)) == without_timing(casepush(*plan))
+    other = casepush(*plan[:-2], 4, "--json")
+    assert without_timing(other) != without_timing(casepush(*plan))
+
+
+def test_pushes_a_chair_to_a_goal(case_base):
+    process = casepush("push", "--object", "office_chair", "--world", "open_floor", "--case-base",
+                       case_base, "--seed", 2, "--json")
+    assert process.returncode == 0, process.stderr
+    result = result_of(process)
+    assert result["success"] is True
+    assert result["position_error_m"] <= 0.2
+    assert result["yaw_error_rad"] <= 0.35
+    assert result["pushes"] == len(result["push_reports"]) > 0
+    assert result["collisions"] == 0
+    assert result["seed"] == 2
+    assert {"replans", "plan_length_m", "sim_time_s", "timing"} <= set(result)
+    assert "push 1 of" in process.stderr
+
+
+def test_export_and_import_keep_every_case(tmp_path, case_base):
+    exported = tmp_path / "out.yaml"
+    assert casepush("cases", "export", "--case-base", case_base, exported).returncode == 0
+    copy = tmp_path / "copy.db"
+    assert casepush("cases", "import", "--case-base", copy, exported).returncode == 0
+    listed = [result_of(casepush("cases", "list", "--case-base", file, "--json"))
+              for file in (case_base, copy)]
+    assert listed[0] == listed[1]
+
+
+def write(path, text):
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def bad_inputs(tmp_path, case_base):
+    """(arguments, words of the one-line message)."""
+    junk = write(tmp_path / "junk.db", "this is no database " * 300)
+    truncated = tmp_path / "truncated.db"
+    with open(case_base, "rb") as stream:
+        truncated.write_bytes(stream.read(5000))
+    empty = tmp_path / "empty.db"
+    only_other = write(tmp_path / "none.yaml", "casepush_cases: 1\ncases: []\n")
+    casepush("cases", "import", "--case-base", empty, only_other)
+    chair = os.path.join(os.environ["CASEPUSH_SHARE"], "config", "objects", "office_chair")
+    for suffix in (".urdf", ".yaml"):
+        shutil.copy(chair + suffix, tmp_path / ("broken" + suffix))
+    urdf = (tmp_path / "broken.urdf").read_text(encoding="utf-8")
+    write(tmp_path / "broken.urdf", urdf.replace("<inertia ", "<inertia_lost ", 1))
+    bad_world = write(tmp_path / "bad.yaml", "bounds: [not a world\n")
+    nan_yaml = tmp_path / "nan.yaml"
+    with open(CHAIR_CASES, encoding="utf-8") as stream:
+        nan_yaml.write_text(stream.read().replace("period_s: 0.1", "period_s: .nan", 1),
+                            encoding="utf-8")
+    plan = ["plan", "--object", "office_chair"]
+    with_cases = plan + ["--case-base", case_base]
+    return [
+        (["plan", "--object", "sofa", "--case-base", case_base], ["sofa", "office_chair"]),
+        (["plan", "--object", tmp_path / "broken.urdf", "--case-base", case_base],
+         ["broken.urdf", "inerti"]),
+        (with_cases + ["--world", "moon"], ["moon", "office"]),
+        (with_cases + ["--world", bad_world], ["bad.yaml"]),
+        (with_cases + ["--map", junk], ["junk.db"]),
+        (with_cases + ["--map", tmp_path / "no.bt"], ["no.bt"]),
+        (plan + ["--case-base", tmp_path / "absent.db"], ["absent.db"]),
+        (plan + ["--case-base", junk], ["junk.db"]),
+        (plan + ["--case-base", truncated], ["truncated.db"]),
+        (plan + ["--case-base", empty], ["empty.db", "casepush learn"]),
+        (with_cases + ["--goal", "nan", "1", "0"], ["--goal", "finite"]),
+        (with_cases + ["--goal", "900", "1", "0"], ["--goal", "outside"]),
+        (with_cases + ["--start", "3", "3", "0"], ["--goal"]),
+        (with_cases + ["--seed", "-1"], ["--seed"]),
+        (["cases", "import", "--case-base", tmp_path / "new.db", nan_yaml], ["nan.yaml", "period"]),
+        (["learn", "--object", "office_chair", "--case-base", tmp_path / "l.db", "--cases", "0"],
+         ["cases"]),
+        (["fly"], ["fly"]),
+    ]
+
+
+def test_bad_input_is_one_clear_line_and_leaves_files_alone(tmp_path, case_base):
+    for arguments, words in bad_inputs(tmp_path, case_base):
+        before = {file: file.read_bytes() for file in tmp_path.iterdir() if file.is_file()}
+        process = casepush(*arguments)
+        lines = [line for line in process.stderr.splitlines() if line.strip()]
+        assert process.returncode == 2, (arguments, process.stderr)
+        assert len(lines) == 1, (arguments, process.stderr)
+        for word in words:
+            assert word in lines[0], (arguments, word, lines[0])
+        for file, content in before.items():
+            assert file.read_bytes() == content, (arguments, file)
+
+
+def test_bad_input_with_json_still_gives_one_object():
+    process = casepush("plan", "--object", "sofa", "--case-base", "none.db", "--json")
+    assert process.returncode == 2
+    result = result_of(process)
+    assert result["success"] is False and "sofa" in result["error"]
+
+
+def test_goal_in_a_wall_is_a_failed_task_with_a_reason(case_base):
+    process = casepush("plan", "--object", "office_chair", "--case-base", case_base, "--goal",
+                       "0.05", "5", "0", "--json")
+    assert process.returncode == 1
+    assert result_of(process)["status"] == "goal in collision"
