@@ -19,6 +19,10 @@ enum CollisionGroup : int {
   kRobotGroup = 16,
 };
 
+/// Contacts farther apart than this cost solver rows and do nothing: bodies close in by a few
+/// millimetres per step.
+constexpr double kContactRange_m = 0.006;
+
 /// What the user pointer of every collision object points to: who it is, part by part.
 struct CollisionTag {
   enum class Kind { kFloor, kStatic, kFurniture, kWheel, kRobot };

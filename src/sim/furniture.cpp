@@ -82,6 +82,7 @@ void Furniture::setupColliders(const Floor& floor) {
     const bool slides = body.wheel >= 0 || !rolls;
     collider->setFriction(slides ? floor.friction : kBodyFriction);
     collider->setRestitution(0.0);
+    collider->setContactProcessingThreshold(kContactRange_m);
     collider->setActivationState(DISABLE_DEACTIVATION);
     if (link < 0) {
       body_->setBaseCollider(collider.get());

@@ -4,7 +4,6 @@
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include <memory>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "caster_solver.h"
 #include "contact_log.h"
 #include "furniture.h"
 #include "robot_base.h"
@@ -62,7 +62,7 @@ class PhysicsWorld {
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
-  btMultiBodyConstraintSolver solver_;
+  CasterSolver solver_;
   btStaticPlaneShape floor_shape_;
   CollisionTag floor_tag_;
   btRigidBody floor_;

@@ -49,6 +49,7 @@ RobotBase::RobotBase(const RobotBlueprint& blueprint, const RobotState& state, b
   body_->setLinearVelocity(state.velocity_mps);
   body_->setAngularVelocity(state.omega_rps);
   body_->setDamping(0, 0);
+  body_->setContactProcessingThreshold(kContactRange_m);
   body_->setFlags(BT_DISABLE_WORLD_GRAVITY);
   body_->setActivationState(DISABLE_DEACTIVATION);
   body_->setUserPointer(const_cast<CollisionTag*>(&blueprint.tag));

@@ -19,8 +19,8 @@ struct SimulatorOptions {
   double step_s = 1.0 / 240.0;
   int solver_iterations = 30;
   bool sensor_noise = true;
-  double command_timeout_s = 0.25;       ///< The base stops when commands cease for this long.
-  double localisation_sigma_m = 0.004;   ///< Bounded, correlated error of map_T_odom.
+  double command_timeout_s = 0.25;      ///< The base stops when commands cease for this long.
+  double localisation_sigma_m = 0.004;  ///< Bounded, correlated error of map_T_odom.
   double localisation_sigma_rad = 0.002;
   double localisation_correlation_s = 10.0;
   void validate() const;  ///< @throws InputError listing every violation.
@@ -46,6 +46,7 @@ struct OdometryReading {
 /// The bundled world: Bullet in double precision, casters as Featherstone joints, sensors.
 ///
 /// Deterministic: the same world, seed and sequence of calls give bit-identical results.
+/// Thread safety: none for one simulator; separate ones may run in separate threads.
 class Simulator {
  public:
   /// @throws InputError if start poses overlap each other or a wall.
@@ -53,17 +54,21 @@ class Simulator {
             SimulatorOptions options);
   ~Simulator();
 
-  /// Commands the base; a twist that is not finite is ignored, one beyond limits is clamped. Returns
-  /// false in either case.
+  /// Commands the base; a twist that is not finite is ignored, one beyond limits is clamped.
+  /// Returns false in either case.
   bool setCommand(const Twist2& robot_twist);
 
   void step(int count = 1);
-  double time() const;          ///< Simulated seconds.
+  double time() const;  ///< Simulated seconds.
   double stepSeconds() const;
 
-  /// Images taken since the last call whose latency has passed, oldest first.
+  /// Images taken since the last call whose latency has passed, oldest first. Without calls the
+  /// last 1000 images wait.
   std::vector<TagFrame> takeTagFrames();
   OdometryReading odometry() const;
+
+  /// Contacts that bore force during the steps since the last call, by pair of parts and ordered by
+  /// name. The floor is left out.
   std::vector<ContactReport> takeContacts();
 
   /// Ground truth, for judging only.
@@ -73,7 +78,8 @@ class Simulator {
   /// Pose of each link in the map, in the order of the object's mechanism.
   std::vector<Eigen::Isometry3d> trueLinkPoses(const std::string& id) const;
 
-  /// Puts an object or the robot ("robot") somewhere, at rest; the casters swivel at random.
+  /// Puts an object or the robot ("robot") somewhere, at rest; the casters swivel at random and the
+  /// robot forgets its command.
   /// Time goes on. @throws InputError if there is no such body, the pose is not finite, outside the
   /// world, or overlaps something (everything stays as it was).
   void setPose(const std::string& id, const Pose2& map_T_body);

@@ -10,6 +10,7 @@
 
 #include "casepush/common/input_error.h"
 #include "casepush/common/random.h"
+#include "casepush/model/catalog.h"
 #include "sim/scenes.h"
 
 namespace casepush {
@@ -253,9 +254,9 @@ TEST(Simulator, refusesUnusableWorlds) {
 TEST(Simulator, agreesWithAnEightTimesFinerStep) {
   SimulatorOptions fine;
   fine.step_s = 1.0 / 1920.0;
-  fine.solver_iterations = 60;
+  fine.solver_iterations = 40;
   std::vector<double> differences_m;
-  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 7; ++seed) {
     WorldModel world = test::makeCartWorld();
     Random random(seed);
     const double offset_m = random.uniform(-0.08, 0.08);
@@ -266,7 +267,7 @@ TEST(Simulator, agreesWithAnEightTimesFinerStep) {
     Simulator fine_simulator = makeSimulator(world, seed, fine);
     for (Simulator* simulator : {&coarse_simulator, &fine_simulator}) {
       drive(*simulator, twist, 3.0);
-      drive(*simulator, {}, 2.0);
+      drive(*simulator, {}, 1.0);
     }
     const Pose2 coarse_pose = coarse_simulator.trueObjectPose("cart_1");
     EXPECT_GT(coarse_pose.position().norm(), 0.2);
@@ -274,6 +275,31 @@ TEST(Simulator, agreesWithAnEightTimesFinerStep) {
   }
   std::sort(differences_m.begin(), differences_m.end());
   EXPECT_LT(differences_m[differences_m.size() / 2], 0.015);
+}
+
+// The shipped chair in the shipped room, by what the files say.
+TEST(Simulator, shippedChairStandsStillAndNamesWhatTouchesIt) {
+  const Catalog catalog = Catalog::standard();
+  const WorldModel world = catalog.world("open_floor");
+  const RobotModel robot = catalog.robot(world.robot);
+  const ObjectPlacement& chair = world.objects.at(0);
+  Simulator simulator(world, robot, {{chair.model, catalog.object(chair.model)}}, {});
+  simulator.step(480);
+  EXPECT_LT(distance(simulator.trueObjectPose(chair.id), chair.map_T_object), 1e-4);
+  EXPECT_LT(std::abs(simulator.trueLinkPoses(chair.id)[0].translation().z()), 1e-3);
+  EXPECT_TRUE(simulator.takeContacts().empty());
+  const Pose2 behind = chair.map_T_object * Pose2(-0.7, 0.0, 0.0);
+  simulator.setPose("robot", behind);
+  drive(simulator, {0.4, 0.0, 0.0}, 2.0);
+  EXPECT_GT(simulator.trueObjectPose(chair.id).x() - chair.map_T_object.x(), 0.3);
+  const auto contacts = simulator.takeContacts();
+  ASSERT_FALSE(contacts.empty());
+  for (const ContactReport& contact : contacts) {
+    EXPECT_EQ(contact.body_a, chair.id);
+    EXPECT_GE(simulator.object(chair.id).mechanism.linkIndex(contact.part_a), 0) << contact.part_a;
+    EXPECT_EQ(contact.body_b, "robot");
+    EXPECT_GE(robot.mechanism.linkIndex(contact.part_b), 0) << contact.part_b;
+  }
 }
 
 }  // namespace
