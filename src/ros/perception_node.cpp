@@ -12,7 +12,7 @@
 namespace casepush {
 namespace {
 
-constexpr double kSilentPeriodS = 0.1;  // Publish at least this often, so that ages grow.
+constexpr double kSilentPeriodS = 0.04;  // Publish at least this often: poses move, ages grow.
 constexpr double kMinimumPeriodS = 0.015;
 constexpr double kMarkerPeriodS = 0.2;
 constexpr double kFadedAfterS = 1.0;
@@ -43,29 +43,30 @@ PerceptionNode::PerceptionNode(PerceptionNodeParameters parameters, ros::NodeHan
   tags_.subscribe(handle_, names::kTagDetections.name, names::kTagDetections.queue_size,
                   ros::TransportHints().tcpNoDelay());
   timer_ = handle_.createTimer(ros::Duration(kSilentPeriodS), [this](const ros::TimerEvent&) {
-    const double now_s = ros::Time::now().toSec();
-    forgetOnJumpBack(now_s);
+    const double now_s = now();
     if (now_s - last_published_s_ >= kSilentPeriodS) {
       publish(now_s);
     }
   });
 }
 
-void PerceptionNode::forgetOnJumpBack(double now_s) {
-  constexpr double kJumpS = 1.0;
-  if (now_s < last_published_s_ - kJumpS) {
-    ROS_INFO("time jumped back from %.3f s to %.3f s: tracks are forgotten", last_published_s_,
-             now_s);
+double PerceptionNode::now() {
+  constexpr double kJumpS = 0.5;
+  const double now_s = ros::Time::now().toSec();
+  if (now_s < last_now_s_ - kJumpS) {
+    ROS_INFO("time jumped back from %.3f s to %.3f s: tracks are forgotten", last_now_s_, now_s);
     tracker_.clear();
     buffer_.clear();
-    last_published_s_ = now_s;
+    last_published_s_ = -1e9;
     last_markers_s_ = -1e9;
   }
+  last_now_s_ = now_s;
+  return now_s;
 }
 
 void PerceptionNode::onTags(const AprilTagDetectionArray& message) {
   const ros::Time stamp = message.header.stamp;
-  forgetOnJumpBack(stamp.toSec());
+  const double now_s = std::max(stamp.toSec(), now());
   ++frames_;
   try {
     const Pose2 map_T_robot = planarPose(
@@ -82,7 +83,6 @@ void PerceptionNode::onTags(const AprilTagDetectionArray& message) {
     ROS_WARN_THROTTLE(1.0, "tag_detections: image left out: %s", error.what());
     return;
   }
-  const double now_s = std::max(stamp.toSec(), ros::Time::now().toSec());
   if (now_s - last_published_s_ >= kMinimumPeriodS) {
     publish(now_s);
   }

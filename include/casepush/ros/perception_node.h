@@ -17,7 +17,7 @@
 namespace casepush {
 
 /// Turns tag detections into tracked poses: looks up where the camera was, updates the tracker and
-/// publishes `objects` after each image, and at 10 Hz if no images come.
+/// publishes `objects` after each image, and at 25 Hz if no images come.
 class PerceptionNode {
  public:
   /// @throws InputError from the tracker.
@@ -27,7 +27,8 @@ class PerceptionNode {
   using TagFilter = tf2_ros::MessageFilter<AprilTagDetectionArray>;
 
   void onTags(const AprilTagDetectionArray& message);
-  void forgetOnJumpBack(double now_s);
+  /// The ROS clock's time; forgets all tracks if it has jumped back.
+  double now();
   void publish(double now_s);
   void publishMarkers(const std::vector<ObjectState>& states, double now_s);
   void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -44,7 +45,8 @@ class PerceptionNode {
   message_filters::Subscriber<AprilTagDetectionArray> tags_;
   TagFilter filter_;
   ros::Timer timer_;
-  double last_published_s_ = 0.0;
+  double last_now_s_ = -1e9;
+  double last_published_s_ = -1e9;
   double last_markers_s_ = -1e9;
   int frames_ = 0;
   int bad_frames_ = 0;
