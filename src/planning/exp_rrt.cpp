@@ -142,7 +142,8 @@ ExpRrt::Growth ExpRrt::grow() {
 
 // Alg. 1, line 5. Once a solution is known, only where a cheaper one may pass (informed sampling).
 ExpRrt::Target ExpRrt::sample() {
-  if (random_.chance(options_.goal_bias)) {
+  const bool improves = options_.similarity == Similarity::kMetric && !solutions_.empty();
+  if (random_.chance(improves ? options_.improving_goal_bias : options_.goal_bias)) {
     return {goal_->pose(), true};
   }
   constexpr int kAttempts = 20;
@@ -183,7 +184,9 @@ int ExpRrt::select(const Target& target) {
 // A random radius keeps the tree exploring: a fixed large one never leaves the cheapest nodes.
 int ExpRrt::selectCheapestNear(const Pose2& target) {
   nearby_.clear();
-  tree_.open().within(target, random_.uniform(0.0, options_.selection_radius_m), &nearby_);
+  const double radius_m =
+      solutions_.empty() ? options_.selection_radius_m : options_.improving_radius_m;
+  tree_.open().within(target, random_.uniform(0.0, radius_m), &nearby_);
   const auto cheaper = [this](int a, int b) {
     return std::make_pair(tree_.node(a).cost_s, a) < std::make_pair(tree_.node(b).cost_s, b);
   };

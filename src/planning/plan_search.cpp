@@ -56,10 +56,12 @@ ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& spac
   rrt.goal_bias = options.goal_bias;
   rrt.max_nodes = options.max_nodes;
   rrt.gyration_radius_m = problem.object.gyration_radius_m;
-  rrt.spacing_m = options.spacing_m;
+  // As printed, the algorithm knows no cost: there only the very same pose is a duplicate.
+  constexpr double kSamePose_m = 1e-3;
+  rrt.spacing_m = options.similarity == Similarity::kPaper ? kSamePose_m : options.spacing_m;
   rrt.selection_radius_m = options.selection_radius_m;
   rrt.seed = problem.request.seed;
-  const double step_m = 0.5 * checker->collisions().columns().resolution_m;
+  const double step_m = kStepPerCell * checker->collisions().columns().resolution_m;
   std::vector<PreparedCase> cases = prepare(problem, step_m, zeta);
   const PushTime time(cases, options.time);
   const Pose2 object_T_robot =
@@ -121,6 +123,9 @@ bool PlanSearch::findFirst(const SearchClock& clock) {
 }
 
 void PlanSearch::improve(const SearchClock& clock) {
+  if (problem_.options.similarity == Similarity::kPaper) {
+    return;  // Takes the first solution.
+  }
   const int limit = rrt_.extensionCount() + problem_.options.improvement_extensions;
   const ob::PlannerTerminationCondition stop([this, limit, &clock] {
     return rrt_.extensionCount() >= limit || clock.isOver(kImprovementShare);

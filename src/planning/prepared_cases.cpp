@@ -60,7 +60,8 @@ PreparedCase prepare(const Case& push_case, double zeta, double step_m, double o
   prepared.start_T_object = coarseToFine(resample(object, step_m, object_radius_m));
   prepared.start_T_robot = coarseToFine(resample(robot, step_m, robot_radius_m));
   prepared.robot_begin = robot.front();
-  prepared.outcome_T_robot = push_case.start_outcome.mean.inverse() * robot.back();
+  // As recorded: with the mean outcome, which was learnt later, the two might overlap.
+  prepared.outcome_T_robot = push_case.steps.back().object_T_robot;
   prepared.push_direction_rad = pushDirection(push_case);
   prepared.duration_s = push_case.durationS();
   return prepared;

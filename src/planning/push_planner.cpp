@@ -1,5 +1,6 @@
 #include "casepush/planning/push_planner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -105,6 +106,7 @@ struct PushPlanner::Data {
 
   PlanResult search(const PlanRequest& request, const std::vector<Case>& cases,
                     const SearchClock& clock) const;
+  std::string chain(PushPlan* plan, const std::vector<Case>& cases, PushChecker* checker) const;
 };
 
 void PushPlannerOptions::validate() const {
@@ -233,60 +235,56 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
   return result;
 }
 
+// Chains the plan's pushes from its object's pose; says why if one of them cannot be applied.
+std::string PushPlanner::Data::chain(PushPlan* plan, const std::vector<Case>& cases,
+                                     PushChecker* checker) const {
+  const double step_m = kStepPerCell * checker->collisions().columns().resolution_m;
+  const double object_radius_m = objects.at(plan->object.model).radius_m;
+  Pose2 pose = plan->object.map_T_object;
+  for (std::size_t i = 0; i < plan->pushes.size(); ++i) {
+    PlannedPush& push = plan->pushes[i];
+    const std::string name =
+        "push " + std::to_string(i + 1) + " (case " + std::to_string(push.case_id) + ")";
+    const auto found = std::find_if(cases.begin(), cases.end(), [&push](const Case& push_case) {
+      return push_case.id == push.case_id;
+    });
+    if (found == cases.end()) {
+      return name + ": the case no longer exists";
+    }
+    const auto prepared =
+        prepareCases({*found}, plan->zeta, step_m, object_radius_m, robot.radius_m);
+    const PushConflict conflict = checker->conflict(prepared.front(), pose);
+    if (conflict != PushConflict::kNone) {
+      return name + ": " + toString(conflict);
+    }
+    push.map_T_start = pose;
+    push.map_outcome = transform(pose, found->start_outcome);
+    pose = push.map_outcome.mean;
+  }
+  if (!plan->tolerance.isMet(plan->map_T_goal, pose)) {
+    return "the rest of the plan now ends at " + describe(pose) + ", " +
+           rounded(distance(pose, plan->map_T_goal), 2) + " m from the goal";
+  }
+  return {};
+}
+
 PushPlanner::Continuation PushPlanner::continuePlan(
     const PushPlan& rest, const Pose2& map_T_object, const std::vector<Case>& cases,
     const std::vector<PlacedObject>& obstacles) const {
   Continuation result;
-  const auto model = data_->objects.find(rest.object.model);
-  if (model == data_->objects.end()) {
-    result.explanation = "unknown object model \"" + rest.object.model + "\"";
-    return result;
-  }
-  if (!map_T_object.isFinite()) {
-    result.explanation = "the object's pose is not finite";
-    return result;
-  }
-  result.explanation = checkObstacles(obstacles, data_->objects);
+  std::vector<PlacedObject> all = obstacles;
+  all.push_back({rest.object.id, rest.object.model, map_T_object});
+  result.explanation = checkObstacles(all, data_->objects);
   if (!result.explanation.empty()) {
     return result;
   }
   PushChecker checker =
       data_->pushChecker(rest.object.model, placeObstacles(obstacles, data_->objects));
   checker.tolerateStart(map_T_object);
-  const double step_m = 0.5 * checker.collisions().columns().resolution_m;
   result.plan = rest;
   result.plan.object.map_T_object = map_T_object;
-  Pose2 pose = map_T_object;
-  for (std::size_t i = 0; i < rest.pushes.size(); ++i) {
-    PlannedPush& push = result.plan.pushes[i];
-    const std::string name =
-        "push " + std::to_string(i + 1) + " (case " + std::to_string(push.case_id) + ")";
-    const Case* found = nullptr;
-    for (const Case& push_case : cases) {
-      found = push_case.id == push.case_id ? &push_case : found;
-    }
-    if (found == nullptr) {
-      result.explanation = name + ": the case no longer exists";
-      return result;
-    }
-    const PreparedCase prepared =
-        prepareCases({*found}, rest.zeta, step_m, model->second.radius_m, data_->robot.radius_m)
-            .front();
-    const PushConflict conflict = checker.conflict(prepared, pose);
-    if (conflict != PushConflict::kNone) {
-      result.explanation = name + ": " + toString(conflict);
-      return result;
-    }
-    push.map_T_start = pose;
-    push.map_outcome = transform(pose, found->start_outcome);
-    pose = push.map_outcome.mean;
-  }
-  if (!rest.tolerance.isMet(rest.map_T_goal, pose)) {
-    result.explanation = "the rest of the plan now ends at " + describe(pose) + ", " +
-                         rounded(distance(pose, rest.map_T_goal), 2) + " m from the goal";
-    return result;
-  }
-  result.valid = true;
+  result.explanation = data_->chain(&result.plan, cases, &checker);
+  result.valid = result.explanation.empty();
   return result;
 }
 

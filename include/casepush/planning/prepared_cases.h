@@ -20,6 +20,9 @@ struct PreparedCase {
   double duration_s = 0.0;            ///< Of the push and of the object's coasting.
 };
 
+/// Step of prepareCases in cells of the map: nothing of a cell's size slips through.
+constexpr double kStepPerCell = 0.5;
+
 /// Prepares cases for collision checking.
 ///
 /// Trajectories are re-sampled so that no point of the body moves more than `step_m` between

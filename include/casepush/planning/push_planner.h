@@ -26,7 +26,7 @@ struct PushPlannerOptions {
   double robot_margin_m = 0.03;        ///< Grows the robot along its recorded trajectories.
   int solutions = 16;                  ///< Solutions to compare before the cheapest is returned.
   int improvement_extensions = 20000;  ///< Search for cheaper plans after the first one.
-  double spacing_m = 0.05;  ///< Of tree nodes nearer than this only the cheaper one grows.
+  double spacing_m = 0.1;  ///< Of tree nodes nearer than this only the cheaper one grows.
   double selection_radius_m =
       1.0;               ///< The cheapest node within up to this of a sample is extended.
   PushTimeOptions time;  ///< What the robot's way between pushes costs.
