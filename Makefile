@@ -17,13 +17,14 @@ RESULTS ?= $(SOURCE)/results/demo
 export ROS_HOSTNAME ?= localhost
 export PYTHONNOUSERSITE := 1
 
-.PHONY: help deps configure build test demo clean
+.PHONY: help deps configure build test demo setup clean
 
 help:
 	@echo "make demo    install, build, learn a chair and push it through a furnished room"
 	@echo "             OBJECT=$(OBJECT) WORLD=$(WORLD) GOAL='x_m y_m yaw_deg' SEED=$(SEED) GUI=$(GUI)"
 	@echo "make test    install, build and run every test"
 	@echo "make build   install and build only; the build is in $(BUILD)"
+	@echo "make setup   print the file to source for a shell of your own: . \"\$$(make -s setup)\""
 	@echo "make clean   remove the build"
 
 deps:
@@ -40,7 +41,6 @@ configure: | $(CACHE)
 
 build: configure
 	@ninja -C $(BUILD) -j $(JOBS)
-	@echo "casepush: built; for a shell of your own: . $(BUILD)/devel/setup.sh"
 
 test: build
 	@cd $(BUILD) && ctest -j $(JOBS) --output-on-failure --no-tests=error
@@ -48,6 +48,9 @@ test: build
 demo: build
 	@. $(BUILD)/devel/setup.sh && scripts/run_demo --object "$(OBJECT)" --world "$(WORLD)" \
 	  --goal "$(GOAL)" --seed "$(SEED)" --gui "$(GUI)" --results "$(RESULTS)"
+
+setup:
+	@echo $(BUILD)/devel/setup.sh
 
 clean:
 	rm -rf "$(BUILD)" "$(BUILD).log"

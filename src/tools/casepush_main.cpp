@@ -1,5 +1,7 @@
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "casepush/common/input_error.h"
 #include "command.h"
@@ -46,7 +48,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForAllHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return fail(std::string(error.what()) + "; see casepush --help", json);
+    const std::vector<std::string> unknown = app.remaining();
+    const std::string what = unknown.empty() ? error.what() : "unknown argument " + unknown.front();
+    return fail(what + "; see casepush --help", json);
   } catch (const casepush::InputError& error) {
     return fail(error.what(), json);
   } catch (const std::exception& error) {
