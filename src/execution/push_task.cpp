@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "casepush/common/random.h"
 #include "push_task_rules.h"
 #include "watches.h"
 
@@ -117,18 +116,7 @@ Tick PushTask::Data::look(const Observation& observation) {
 }
 
 void PushTask::Data::requestPlan(const Observation& observation, const ObjectState& object) {
-  request = PlanRequest{};
-  request.object = {object.id, object.model, object.map_T_object};
-  request.map_T_goal = goal.map_T_goal;
-  request.tolerance = goal.tolerance;
-  request.tolerance.position_m *= options.goal_share;
-  request.tolerance.yaw_rad *= options.goal_share;
-  request.map_T_robot = observation.map_T_robot;
-  request.obstacles = otherObjects(observation, goal.object_id);
-  // 31 bits, so that the seed passes through every message and file as a number.
-  request.seed =
-      Random::stream(goal.seed, "plan " + std::to_string(progress.plans)).below(1u << 31);
-  request.deadline_s = options.plan_deadline_s;
+  request = planRequest(goal, options, observation, object, progress.plans);
   services.plans->request(request);
   enter(Stage::kPlan, "planning", "planning", observation.stamp_s);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "casepush/common/input_error.h"
+#include "casepush/common/random.h"
 #include "violations.h"
 
 namespace casepush {
@@ -94,6 +95,23 @@ bool isSafelyAtGoal(const PushTaskGoal& goal, const ObjectState& object,
   tolerance.yaw_rad -=
       std::min(most * tolerance.yaw_rad, std::max(options.goal_margin_rad, kSigmas * sigma_rad));
   return tolerance.isMet(goal.map_T_goal, object.map_T_object);
+}
+
+PlanRequest planRequest(const PushTaskGoal& goal, const PushTaskOptions& options,
+                        const Observation& observation, const ObjectState& object,
+                        int plan_number) {
+  PlanRequest request;
+  request.object = {object.id, object.model, object.map_T_object};
+  request.map_T_goal = goal.map_T_goal;
+  request.tolerance = goal.tolerance;
+  request.tolerance.position_m *= options.goal_share;
+  request.tolerance.yaw_rad *= options.goal_share;
+  request.map_T_robot = observation.map_T_robot;
+  request.obstacles = otherObjects(observation, goal.object_id);
+  // 31 bits, so that the seed passes through every message and file as a number.
+  request.seed = Random::stream(goal.seed, "plan " + std::to_string(plan_number)).below(1u << 31);
+  request.deadline_s = options.plan_deadline_s;
+  return request;
 }
 
 std::string errorText(double position_m, double yaw_rad) {

@@ -19,6 +19,11 @@ bool isSensible(const PushTaskGoal& goal);
 bool isSafelyAtGoal(const PushTaskGoal& goal, const ObjectState& object,
                     const PushTaskOptions& options);
 
+/// What to ask the planner for: the inner part of the tolerance, with a seed of its own for each
+/// plan.
+PlanRequest planRequest(const PushTaskGoal& goal, const PushTaskOptions& options,
+                        const Observation& observation, const ObjectState& object, int plan_number);
+
 /// "0.31 m and 12 deg from the goal".
 std::string errorText(double position_m, double yaw_rad);
 
