@@ -106,7 +106,8 @@ struct PushPlanner::Data {
 
   PlanResult search(const PlanRequest& request, const std::vector<Case>& cases,
                     const SearchClock& clock) const;
-  std::string chain(PushPlan* plan, const std::vector<Case>& cases, PushChecker* checker) const;
+  std::string chain(PushPlan* plan, const std::vector<Case>& cases,
+                    PushChecker* push_checker) const;
 };
 
 void PushPlannerOptions::validate() const {
@@ -237,8 +238,8 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
 
 // Chains the plan's pushes from its object's pose; says why if one of them cannot be applied.
 std::string PushPlanner::Data::chain(PushPlan* plan, const std::vector<Case>& cases,
-                                     PushChecker* checker) const {
-  const double step_m = kStepPerCell * checker->collisions().columns().resolution_m;
+                                     PushChecker* push_checker) const {
+  const double step_m = kStepPerCell * push_checker->collisions().columns().resolution_m;
   const double object_radius_m = objects.at(plan->object.model).radius_m;
   Pose2 pose = plan->object.map_T_object;
   for (std::size_t i = 0; i < plan->pushes.size(); ++i) {
@@ -253,7 +254,7 @@ std::string PushPlanner::Data::chain(PushPlan* plan, const std::vector<Case>& ca
     }
     const auto prepared =
         prepareCases({*found}, plan->zeta, step_m, object_radius_m, robot.radius_m);
-    const PushConflict conflict = checker->conflict(prepared.front(), pose);
+    const PushConflict conflict = push_checker->conflict(prepared.front(), pose);
     if (conflict != PushConflict::kNone) {
       return name + ": " + toString(conflict);
     }
