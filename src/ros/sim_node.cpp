@@ -18,6 +18,10 @@ constexpr double kControlPeriodS = 0.02;
 constexpr int kTruthEvery = 5;  // Ground truth at 10 Hz keeps bags small.
 // A controller counts as present for this long after its last command (simulated time).
 constexpr double kCommandedS = 0.25;
+// The same for the newest tracked poses, which may lag this far behind without holding up the
+// world.
+constexpr double kTrackedS = 0.5;
+constexpr double kTrackingLagS = 0.07;
 // At full speed: never slower than real time for a slow controller, and some rest for the other
 // nodes while nobody commands.
 constexpr double kWaitCommandedS = kControlPeriodS;
@@ -62,6 +66,8 @@ SimNode::SimNode(SimNodeParameters parameters, ros::NodeHandle handle)
                                                         names::kPoints.queue_size, true);
   command_ = handle_.subscribe(names::kCommandVelocity.name, names::kCommandVelocity.queue_size,
                                &SimNode::onCommand, this, ros::TransportHints().tcpNoDelay());
+  objects_ = handle_.subscribe(names::kObjects.name, 1, &SimNode::onObjects, this,
+                               ros::TransportHints().tcpNoDelay());
   reset_ = handle_.advertiseService(names::kResetService, &SimNode::onReset, this);
   set_poses_ = handle_.advertiseService(names::kSetPoseService, &SimNode::onSetPoses, this);
   static_transforms_.sendTransform(cameraTransforms(parameters_.robot));
@@ -139,6 +145,11 @@ void SimNode::publishSurvey() {
 
 bool SimNode::isCommanded() const { return simulator_.time() - last_command_s_ < kCommandedS; }
 
+bool SimNode::nodesKeepUp() const {
+  const double lag_s = simulator_.time() - last_objects_s_;
+  return command_arrived_ && (lag_s < kTrackingLagS || lag_s > kTrackedS);
+}
+
 void SimNode::waitForNodes() {
   const bool full_speed = parameters_.real_time_factor <= 0.0;
   const double wait_s = isCommanded() ? kWaitCommandedS : kWaitIdleS;
@@ -151,7 +162,7 @@ void SimNode::waitForNodes() {
                  : pacing_start_ + seconds(elapsed_s / parameters_.real_time_factor);
   ros::CallbackQueue& queue = *ros::getGlobalCallbackQueue();
   queue.callAvailable();
-  while (ros::ok() && !(full_speed && command_arrived_)) {
+  while (ros::ok() && !(full_speed && nodesKeepUp())) {
     const double left_s = std::chrono::duration<double>(deadline - SteadyClock::now()).count();
     if (left_s <= 0.0) {
       break;
@@ -177,11 +188,16 @@ void SimNode::onCommand(const geometry_msgs::Twist& message) {
   last_command_s_ = simulator_.time();
 }
 
+void SimNode::onObjects(const PushableObjectArray& message) {
+  last_objects_s_ = message.header.stamp.toSec();
+}
+
 bool SimNode::onReset(Reset::Request& request, Reset::Response& response) {
   simulator_.reset(request.seed);
   next_period_s_ = 0.0;
   period_ = 0;
   last_command_s_ = -1e9;
+  last_objects_s_ = -1e9;
   restartPacing();
   response.success = true;
   return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <casepush/PushableObjectArray.h>
 #include <casepush/Reset.h>
 #include <casepush/SetPoses.h>
 #include <geometry_msgs/Twist.h>
@@ -41,8 +42,10 @@ class SimNode {
   void publishSurvey();
   void waitForNodes();
   bool isCommanded() const;
+  bool nodesKeepUp() const;
   void restartPacing();
 
+  void onObjects(const PushableObjectArray& message);
   void onCommand(const geometry_msgs::Twist& message);
   bool onReset(Reset::Request& request, Reset::Response& response);
   bool onSetPoses(SetPoses::Request& request, SetPoses::Response& response);
@@ -58,6 +61,7 @@ class SimNode {
   ros::Publisher contacts_;
   ros::Publisher points_;
   ros::Subscriber command_;
+  ros::Subscriber objects_;
   ros::ServiceServer reset_;
   ros::ServiceServer set_poses_;
   tf2_ros::TransformBroadcaster transforms_;
@@ -67,6 +71,7 @@ class SimNode {
   int period_ = 0;
   bool command_arrived_ = false;
   double last_command_s_ = -1e9;
+  double last_objects_s_ = -1e9;
   int refused_commands_ = 0;
   SteadyClock::time_point pacing_start_;
   double pacing_start_s_ = 0.0;
