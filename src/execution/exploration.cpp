@@ -6,6 +6,7 @@
 
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
+#include "casepush/planning/prepared_cases.h"
 #include "coverage.h"
 #include "push_candidates.h"
 #include "violations.h"
@@ -24,14 +25,19 @@ constexpr int kMaxFailuresInRow = 5;
 struct KnownCase {
   std::int64_t id;
   Pose2 object_T_robot;
+  double push_direction_rad;
   PoseGaussian outcome;
   double effective_count;
   int observations;
 };
 
 KnownCase known(const Case& push_case, std::int64_t id) {
-  return {id, push_case.steps.front().object_T_robot, push_case.start_outcome,
-          push_case.effective_count, push_case.observation_count};
+  return {id,
+          push_case.steps.front().object_T_robot,
+          pushDirection(push_case),
+          push_case.start_outcome,
+          push_case.effective_count,
+          push_case.observation_count};
 }
 
 }  // namespace
@@ -200,12 +206,16 @@ std::optional<Exploration::Trial> Exploration::next() const {
   if (const KnownCase* practised = data_->toPractise()) {
     trial.case_id = practised->id;
     trial.object_T_robot = practised->object_T_robot;
+    trial.object_T_reset =
+        data_->candidates.runUp(trial.object_T_robot, practised->push_direction_rad);
     trial.case_number = static_cast<int>(practised - data_->cases.data()) + 1;
     trial.practice_number = practised->observations + 1;
     return trial;
   }
   trial.configuration = data_->candidate;
   trial.object_T_robot = trial.configuration.object_T_robot;
+  trial.object_T_reset = data_->candidates.runUp(
+      trial.object_T_robot, trial.object_T_robot.yaw() + trial.configuration.direction_rad);
   trial.case_number = static_cast<int>(data_->cases.size()) + 1;
   trial.practice_number = 1;
   return trial;

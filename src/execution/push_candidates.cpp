@@ -151,4 +151,21 @@ PushConfiguration PushCandidates::draw(int attempt, int failures,
   return {};
 }
 
+Pose2 PushCandidates::runUp(const Pose2& object_T_start, double push_direction_rad) const {
+  constexpr int kSteps = 6;
+  constexpr double kStepM = 0.025;
+  Pose2 pose = object_T_start;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double run_up_m = i * kStepM;
+    const Pose2 farther(object_T_start.x() - run_up_m * std::cos(push_direction_rad),
+                        object_T_start.y() - run_up_m * std::sin(push_direction_rad),
+                        object_T_start.yaw());
+    if (solidsOverlap(object_.solid, Pose2(), robot_.solid, farther)) {
+      break;
+    }
+    pose = farther;
+  }
+  return pose;
+}
+
 }  // namespace casepush

@@ -26,6 +26,10 @@ class PushCandidates {
   /// @param failures  Trials in a row that were of no use: other gaps are tried.
   PushConfiguration draw(int attempt, int failures, const std::vector<Pose2>& outcomes) const;
 
+  /// A pose up to 0.15 m behind the start of a push, as far as is free, from which the robot docks as
+  /// it will when it executes plans: else its docking errors would be missing from what it learns.
+  Pose2 runUp(const Pose2& object_T_start, double push_direction_rad) const;
+
  private:
   std::optional<PushConfiguration> tryDraw(Random& random, int failures,
                                            const std::vector<Pose2>& outcomes) const;

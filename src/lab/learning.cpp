@@ -20,7 +20,7 @@ WorldModel arena(const std::string& object, const std::string& robot) {
   return world;
 }
 
-/// The robot is put where a push starts, so its approach is a straight line.
+/// The robot is put right behind where a push starts, so its approach is a straight line.
 RobotPath straightPath(const Observation& observation, const Pose2& goal,
                        double /*dock_direction_rad*/) {
   RobotPath path;
@@ -59,7 +59,7 @@ LearningResult learnInLab(const Catalog& catalog, const std::string& object,
       result.explanation = "stopped on request; finished pushes are kept";
       break;
     }
-    loop.place({{kObjectId, Pose2()}, {"robot", trial->object_T_robot}});
+    loop.place({{kObjectId, Pose2()}, {"robot", trial->object_T_reset}});
     ExecutePush push = makePush(*trial, case_base, robot_model, options.push);
     loop.run(push, kPushLimitS);
     if (!push.report()) {
@@ -69,7 +69,7 @@ LearningResult learnInLab(const Catalog& catalog, const std::string& object,
     ++result.pushes;
     const PushReport& report = *push.report();
     std::optional<Case> updated;
-    if (trial->case_id && report.outcome == PushOutcome::kDone) {
+    if (trial->case_id && isObservation(report)) {
       updated =
           case_base.observe(*trial->case_id, report.recorded.start_outcome.mean, options.floor);
     }

@@ -16,7 +16,7 @@ class WorkingCases {
   const std::vector<Case>& all() const { return cases_; }
 
   void learnFrom(const PushReport& report) {
-    if (!options_.adapt || report.outcome != PushOutcome::kDone) {
+    if (!options_.adapt || !isObservation(report)) {
       return;
     }
     for (Case& push_case : cases_) {

@@ -82,16 +82,17 @@ std::vector<PreparedCase> prepareCases(const std::vector<Case>& cases, double ze
 }
 
 double pushDirection(const Case& push_case) {
-  constexpr double kMoving_mps = 0.01;
+  // Far enough that neither the noise of the poses nor a correction at the start decides.
+  constexpr double kClearMotionM = 0.05;
+  const Eigen::Vector2d start = push_case.steps.front().start_T_robot().position();
   for (const CaseStep& step : push_case.steps) {
-    if (step.action.speed() > kMoving_mps) {
-      const double robot_direction_rad = std::atan2(step.action.vy_mps, step.action.vx_mps);
-      return wrapAngle(push_case.steps.front().start_T_robot().yaw() + robot_direction_rad);
+    const Eigen::Vector2d motion = step.start_T_robot().position() - start;
+    if (motion.norm() > kClearMotionM) {
+      return std::atan2(motion.y(), motion.x());
     }
   }
   // A push that only turns: towards the object.
-  const Eigen::Vector2d towards = -push_case.steps.front().start_T_robot().position();
-  return std::atan2(towards.y(), towards.x());
+  return std::atan2(-start.y(), -start.x());
 }
 
 }  // namespace casepush

@@ -250,7 +250,7 @@ std::string LearnerNode::reset(const Run& run, const Exploration::Trial& trial) 
   body.pose = toMessage(run.map_T_home);
   request.bodies.push_back(body);
   body.id = "robot";
-  body.pose = toMessage(run.map_T_home * trial.object_T_robot);
+  body.pose = toMessage(run.map_T_home * trial.object_T_reset);
   request.bodies.push_back(body);
   if (!set_pose_.call(request, response)) {
     return std::string("service ") + names::kSetPoseService + " failed";

@@ -72,8 +72,9 @@ class Exploration {
   struct Trial {
     std::optional<std::int64_t> case_id;  ///< Practise this case; otherwise try `configuration`.
     PushConfiguration configuration;
-    Pose2 object_T_robot;     ///< Where the robot starts in either way.
-    int case_number = 0;      ///< From 1, of options.cases.
+    Pose2 object_T_robot;  ///< Where the robot starts in either way.
+    Pose2 object_T_reset;  ///< Where to put the robot if it need not drive there: it docks itself.
+    int case_number = 0;   ///< From 1, of options.cases.
     int practice_number = 0;  ///< From 1, of options.practices.
   };
   /// The next push to execute; nothing if learning is done or has given up. The same until judged.
