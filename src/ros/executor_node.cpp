@@ -339,6 +339,10 @@ void ExecutorNode::tick(double now_s) {
     command_.publish(geometry_msgs::Twist());
     return;
   }
+  if (now_s - objects_stamp_s_ > parameters_.lost_objects_s && end_ == ActivityEnd::kFinished) {
+    end(ActivityEnd::kStopped, "tracked poses (topic objects) ceased: is perception gone?");
+    return;
+  }
   const Tick result = activity_->tick(*observation);
   command_.publish(toMessage(safeCommand(*observation, result.command.twist)));
   if (result.status != BehaviourStatus::kRunning) {

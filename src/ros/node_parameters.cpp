@@ -248,6 +248,7 @@ ExecutorNodeParameters loadExecutorNodeParameters(ParameterReader reader, const 
   readTask(reader, parameters.task);
   reader.read("watchdog", parameters.watchdog_s, 0.02, 1.0);
   reader.read("stale_objects", parameters.stale_objects_s, 0.02, 10.0);
+  reader.read("lost_objects", parameters.lost_objects_s, 0.02, 3600.0);
   reader.read("dead_clock", parameters.dead_clock_s, 0.1, 3600.0);
   reader.finish();
   return parameters;

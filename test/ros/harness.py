@@ -7,6 +7,7 @@ import time
 
 import rospkg
 import rospy
+from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D
 from geometry_msgs.msg import PoseStamped
 from geometry_msgs.msg import Twist
@@ -68,6 +69,13 @@ def wait_until(condition, patience_s=20.0, what="a condition"):
         if time.monotonic() > end:
             raise AssertionError(f"waited {patience_s} s in vain for {what}")
         pause.wait(0.02)
+
+
+def result_of(client, patience_s=30.0):
+    """The result of the goal that a SimpleActionClient sent. The state may come before the result."""
+    wait_until(lambda: client.get_state() > GoalStatus.ACTIVE and client.get_result() is not None,
+               patience_s, "a result")
+    return client.get_result()
 
 
 def node_path(executable):

@@ -47,9 +47,7 @@ class LearnerNodeTest(unittest.TestCase):
     def learn(self, cases, practices, patience_s=60.0):
         self.client.send_goal(LearnObjectGoal(object_id=harness.OBJECT, cases=cases,
                                               practices=practices, seed=1))
-        harness.wait_until(lambda: self.client.get_state() > GoalStatus.ACTIVE, patience_s,
-                           "the end of learning")
-        return self.client.get_result()
+        return harness.result_of(self.client, patience_s)
 
     def counts(self):
         return [case.observation_count for case in self.cases.last().cases]
@@ -58,8 +56,7 @@ class LearnerNodeTest(unittest.TestCase):
         feedback = []
         self.client.send_goal(LearnObjectGoal(object_id=harness.OBJECT, cases=1, practices=3,
                                               seed=1), feedback_cb=feedback.append)
-        harness.wait_until(lambda: self.client.get_state() > GoalStatus.ACTIVE, 60.0, "learning")
-        result = self.client.get_result()
+        result = harness.result_of(self.client, 60.0)
         self.assertEqual(result.status, LearnObjectResult.DONE, result.explanation)
         self.assertEqual(self.client.get_state(), GoalStatus.SUCCEEDED)
         self.cases.wait(lambda m: len(m.cases) == 1 and m.cases[0].observation_count == 3)
@@ -87,10 +84,10 @@ class LearnerNodeTest(unittest.TestCase):
                                               seed=3))
         self.cases.wait(lambda m: len(m.cases) == 3, 60.0)
         self.client.cancel_goal()
-        harness.wait_until(lambda: self.client.get_state() > GoalStatus.ACTIVE, what="the end")
+        result = harness.result_of(self.client)
         self.assertEqual(self.client.get_state(), GoalStatus.PREEMPTED)
-        self.assertEqual(self.client.get_result().status, LearnObjectResult.CANCELLED)
-        self.assertGreaterEqual(self.client.get_result().cases, 3)
+        self.assertEqual(result.status, LearnObjectResult.CANCELLED)
+        self.assertGreaterEqual(result.cases, 3)
 
     def test_d_adapts_by_pushes_of_tasks_only(self):
         report = ExecutedPush(object_id=harness.OBJECT, sequence=1)
@@ -123,8 +120,7 @@ class LearnerNodeTest(unittest.TestCase):
 
     def test_f_refuses_bad_goals(self):
         self.client.send_goal(LearnObjectGoal(object_id="piano_1"))
-        harness.wait_until(lambda: self.client.get_state() > GoalStatus.ACTIVE, what="the end")
-        result = self.client.get_result()
+        result = harness.result_of(self.client)
         self.assertEqual(result.status, LearnObjectResult.INVALID_GOAL)
         self.assertIn("piano_1", result.explanation)
 

@@ -33,8 +33,7 @@ class PlannerNodeTest(unittest.TestCase):
 
     def plan(self, goal, patience_s=30.0):
         self.client.send_goal(goal)
-        harness.wait_until(lambda: self.client.get_state() > GoalStatus.ACTIVE, patience_s, "a plan")
-        return self.client.get_result()
+        return harness.result_of(self.client, patience_s)
 
     def goal(self, x_m=2.5, y_m=1.5, yaw_rad=0.8, **fields):
         return PlanPushGoal(object_id=harness.OBJECT, goal=harness.pose(x_m, y_m, yaw_rad), seed=1,
