@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "execution/pushes.h"
+
+namespace casepush {
+namespace {
+
+using test::FakeWorld;
+using test::firstTrial;
+using Phase = ExecutePush::Phase;
+
+TEST(ExecutePushSafety, stopsAtOnceWhenTheRobotsPoseIsStaleAndGoesOnAfterwards) {
+  for (const Phase phase : {Phase::kApproach, Phase::kDock, Phase::kPush}) {
+    FakeWorld world(4);
+    ExecutePush push = firstTrial();
+    ASSERT_TRUE(test::runUntil(push, world, phase));
+    for (int i = 0; i < 20; ++i) {
+      world.advance(push.tick(world.observe()).command.twist);
+    }
+    world.robot_localised = false;
+    const double lost_s = world.now_s;
+    while (world.now_s < lost_s + 1.0) {
+      const Tick tick = push.tick(world.observe());
+      if (world.now_s > lost_s + 0.2) {
+        EXPECT_TRUE(test::isZero(tick.command.twist));
+      }
+      EXPECT_EQ(tick.status, BehaviourStatus::kRunning);
+      world.advance(tick.command.twist);
+    }
+    world.robot_localised = true;
+    EXPECT_EQ(test::run(push, world), BehaviourStatus::kSucceeded) << push.describe();
+  }
+}
+
+TEST(ExecutePushSafety, failsWhenTheRobotsPoseStaysAway) {
+  FakeWorld world(4);
+  ExecutePush push = firstTrial();
+  ASSERT_TRUE(test::runUntil(push, world, Phase::kPush));
+  world.robot_localised = false;
+  const double lost_s = world.now_s;
+  EXPECT_EQ(test::run(push, world, 10.0), BehaviourStatus::kFailed);
+  EXPECT_EQ(push.report()->outcome, PushOutcome::kRobotLost);
+  EXPECT_EQ(push.describe(), "the robot's own pose is not up to date");
+  EXPECT_NEAR(world.now_s - lost_s, 2.2, 0.1);
+}
+
+TEST(ExecutePushSafety, stopsAndFailsWhenTheObjectIsLost) {
+  for (const Phase phase : {Phase::kPush, Phase::kRest}) {
+    FakeWorld world(5);
+    ExecutePush push = firstTrial();
+    ASSERT_TRUE(test::runUntil(push, world, phase));
+    world.object_visible = false;
+    const double lost_s = world.now_s;
+    EXPECT_EQ(test::run(push, world, 10.0), BehaviourStatus::kFailed);
+    EXPECT_EQ(push.report()->outcome, PushOutcome::kObjectLost);
+    EXPECT_NEAR(world.now_s - lost_s, 1.0, 0.1);
+    EXPECT_TRUE(test::isZero(push.tick(world.observe()).command.twist));
+    EXPECT_FALSE(isObservation(*push.report()));
+  }
+}
+
+TEST(ExecutePushSafety, failsWhenTheObjectIsNeverSeen) {
+  FakeWorld world(5);
+  world.object_visible = false;
+  ExecutePush push = firstTrial();
+  EXPECT_EQ(test::run(push, world, 10.0), BehaviourStatus::kFailed);
+  EXPECT_EQ(push.report()->outcome, PushOutcome::kObjectLost);
+  EXPECT_EQ(push.describe(), "chair_1 has not been seen");
+}
+
+TEST(ExecutePushSafety, aBriefLossOfSightDoesNotMatter) {
+  FakeWorld world(5);
+  ExecutePush push = firstTrial();
+  ASSERT_TRUE(test::runUntil(push, world, Phase::kPush));
+  world.object_visible = false;
+  for (int i = 0; i < 30; ++i) {
+    world.advance(push.tick(world.observe()).command.twist);
+  }
+  world.object_visible = true;
+  EXPECT_EQ(test::run(push, world), BehaviourStatus::kSucceeded);
+}
+
+TEST(ExecutePushSafety, standsStillOnObservationsThatAreNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::function<void(Observation&)>> spoilers = {
+      [nan](Observation& o) { o.stamp_s = nan; },
+      [nan](Observation& o) { o.map_T_robot = Pose2(nan, 0.0, 0.0); },
+      [nan](Observation& o) { o.robot_stamp_s = nan; },
+      [nan](Observation& o) { o.objects[0].map_T_object = Pose2(0.0, 0.0, nan); },
+      [nan](Observation& o) { o.objects[0].twist.vx_mps = nan; },
+  };
+  for (const Phase phase : {Phase::kApproach, Phase::kDock, Phase::kPush, Phase::kRest}) {
+    FakeWorld world(6);
+    ExecutePush push = firstTrial();
+    ASSERT_TRUE(test::runUntil(push, world, phase));
+    world.advance(push.tick(world.observe()).command.twist);
+    for (const auto& spoil : spoilers) {
+      Observation bad = world.observe();
+      spoil(bad);
+      const Tick tick = push.tick(bad);
+      EXPECT_TRUE(test::isZero(tick.command.twist));
+      EXPECT_EQ(tick.status, BehaviourStatus::kRunning);
+      world.advance(push.tick(world.observe()).command.twist);
+    }
+    EXPECT_EQ(test::run(push, world), BehaviourStatus::kSucceeded) << push.describe();
+  }
+}
+
+TEST(ExecutePushSafety, cancelsInEveryPhase) {
+  for (const Phase phase : {Phase::kApproach, Phase::kDock, Phase::kPush, Phase::kRest}) {
+    FakeWorld world(7);
+    ExecutePush push = firstTrial();
+    ASSERT_TRUE(test::runUntil(push, world, phase));
+    push.cancel();
+    for (int i = 0; i < 3; ++i) {
+      const Tick tick = push.tick(world.observe());
+      EXPECT_TRUE(test::isZero(tick.command.twist));
+      EXPECT_EQ(tick.status, BehaviourStatus::kFailed);
+    }
+    EXPECT_EQ(push.report()->outcome, PushOutcome::kCancelled);
+  }
+}
+
+TEST(ExecutePushSafety, cancelBeforeTheFirstTickWorksToo) {
+  ExecutePush push = firstTrial();
+  push.cancel();
+  EXPECT_EQ(push.tick(Observation{}).status, BehaviourStatus::kFailed);
+  EXPECT_EQ(push.report()->outcome, PushOutcome::kCancelled);
+}
+
+}  // namespace
+}  // namespace casepush
