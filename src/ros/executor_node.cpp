@@ -20,7 +20,6 @@ constexpr double kTickCheckS = 0.02;    // Wall time.
 constexpr double kTickMissingS = 0.06;  // Wall time without odometry after which a timer ticks.
 constexpr double kStatePeriodS = 0.2;
 constexpr double kJumpBackS = 0.5;
-constexpr double kLimitSlack = 1.02;
 
 /// A trivial path if the robot all but stands at the goal, which a planner would call blocked.
 std::optional<RobotPath> pathIfThere(const Pose2& map_T_robot, const Pose2& goal) {
@@ -52,6 +51,8 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
     : parameters_(std::move(parameters)),
       handle_(handle),
       listener_(buffer_, handle, false, ros::TransportHints().tcpNoDelay()),
+      guard_(parameters_.furnishing.robot.limits, parameters_.task.push.stale_robot_s,
+             parameters_.stale_objects_s),
       plans_(handle),
       push_object_(
           handle, names::kPushObjectAction,
@@ -357,21 +358,14 @@ Twist2 ExecutorNode::safeCommand(const Observation& observation, const Twist2& w
   if (end_ != ActivityEnd::kFinished) {
     return Twist2{};
   }
-  const double robot_age_s = observation.stamp_s - observation.robot_stamp_s;
-  const double objects_age_s = observation.stamp_s - objects_stamp_s_;
-  const bool stale = robot_age_s > parameters_.task.push.stale_robot_s ||
-                     objects_age_s > parameters_.stale_objects_s;
-  const RobotLimits& limits = parameters_.furnishing.robot.limits;
-  const bool in_bounds = wanted.isFinite() &&
-                         wanted.speed() <= limits.max_speed_mps * kLimitSlack &&
-                         std::abs(wanted.wz_rps) <= limits.max_yaw_rate_rps * kLimitSlack;
-  if (stale || !in_bounds) {
+  const CommandGuard::Verdict verdict =
+      guard_.judge(wanted, observation.stamp_s - observation.robot_stamp_s,
+                   observation.stamp_s - objects_stamp_s_);
+  if (!verdict.reason.empty()) {
     ++overridden_commands_;
-    ROS_WARN_THROTTLE(1.0, "the base is told to stand: %s",
-                      stale ? "poses are stale" : "a command was beyond the robot's limits");
-    return Twist2{};
+    ROS_WARN_THROTTLE(1.0, "the base is told to stand: %s", verdict.reason.c_str());
   }
-  return wanted;
+  return verdict.twist;
 }
 
 void ExecutorNode::finish() {

@@ -23,7 +23,7 @@ using std::chrono::milliseconds;
 // How near the tracked pose must be to where an object was put.
 constexpr double kPlacedM = 0.05;
 constexpr double kPlacedRad = 0.1;
-constexpr std::chrono::seconds kSeenPatience(10);      // Wall time.
+constexpr double kSeenPatienceS = 10.0;                // Wall time.
 constexpr std::chrono::seconds kExecutorPatience(20);  // Wall time.
 constexpr milliseconds kLook(20);
 constexpr int kRefusals = 5;  // In a row by the executor, before learning gives up.
@@ -60,6 +60,7 @@ LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handl
     : parameters_(std::move(parameters)),
       handle_(handle),
       base_(parameters_.case_base, CaseBase::Access::kCreate),
+      objects_(handle),
       execute_push_(handle, names::kExecutePushAction, true),
       server_(
           handle, names::kLearnObjectAction,
@@ -70,20 +71,13 @@ LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handl
   cases_ = handle_.advertise<PushCaseArray>(names::kCases.name, names::kCases.queue_size, true);
   markers_ = handle_.advertise<MarkerArray>(names::kCaseMarkers.name,
                                             names::kCaseMarkers.queue_size, true);
-  objects_subscriber_ = handle_.subscribe(names::kObjects.name, 1, &LearnerNode::onObjects, this,
-                                          ros::TransportHints().tcpNoDelay());
   reports_subscriber_ = handle_.subscribe(names::kPushReports.name, names::kPushReports.queue_size,
                                           &LearnerNode::onReport, this);
   export_ = handle_.advertiseService(names::kExportCasesService, &LearnerNode::onExport, this);
   import_ = handle_.advertiseService(names::kImportCasesService, &LearnerNode::onImport, this);
   publishCases();
-  marker_timer_ =
-      handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
-        const std::optional<ObjectState> object = seenObject(shown_object_);
-        if (object && distance(object->map_T_object, shown_at_) > kMarkersMoveM) {
-          publishMarkers();
-        }
-      });
+  marker_timer_ = handle_.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { publishMarkersIfMoved(); });
   server_.start();
 }
 
@@ -188,28 +182,19 @@ bool LearnerNode::begin(Run& run) {
     return run.fail(LearnObjectResult::FAILED, "reset is teleport, but there is no service " +
                                                    std::string(names::kSetPoseService));
   }
-  if (!waitUntil([&] { return findObject(run.object_id) != nullptr; })) {
+  const auto any = [](const ObjectState& /*object*/) { return true; };
+  if (!objects_.wait(run.object_id, any, kSeenPatienceS, [this] { return shouldEnd(); })) {
     return run.fail(LearnObjectResult::FAILED,
                     run.object_id + " has not been seen (topic objects)");
   }
-  run.map_T_home = parameters_.home.value_or(seenObject(run.object_id)->map_T_object);
+  run.map_T_home = parameters_.home.value_or(objects_.find(run.object_id)->map_T_object);
   return true;
 }
 
+bool LearnerNode::shouldEnd() { return !ros::ok() || server_.isPreemptRequested(); }
+
 bool LearnerNode::canTeleport() {
   return parameters_.reset != ResetMode::kDrive && set_pose_.exists();
-}
-
-const ObjectState* LearnerNode::findObject(const std::string& id) const {
-  const auto found = std::find_if(objects_.begin(), objects_.end(),
-                                  [&id](const ObjectState& each) { return each.id == id; });
-  return found == objects_.end() ? nullptr : &*found;
-}
-
-std::optional<ObjectState> LearnerNode::seenObject(const std::string& id) {
-  const std::lock_guard<std::mutex> lock(state_mutex_);
-  const ObjectState* found = findObject(id);
-  return found == nullptr ? std::nullopt : std::optional<ObjectState>(*found);
 }
 
 bool LearnerNode::waitForChange(const std::function<bool()>& condition) {
@@ -218,20 +203,10 @@ bool LearnerNode::waitForChange(const std::function<bool()>& condition) {
   return state_changed_.wait_for(lock, kLook, condition);
 }
 
-bool LearnerNode::waitUntil(const std::function<bool()>& condition) {
-  const SteadyClock::time_point end = SteadyClock::now() + kSeenPatience;
-  while (!waitForChange(condition)) {
-    if (!ros::ok() || server_.isPreemptRequested() || SteadyClock::now() > end) {
-      return false;
-    }
-  }
-  return true;
-}
-
 bool LearnerNode::waitForExecutor() {
   const SteadyClock::time_point end = SteadyClock::now() + kExecutorPatience;
   while (!execute_push_.isServerConnected()) {
-    if (!ros::ok() || server_.isPreemptRequested() || SteadyClock::now() > end) {
+    if (shouldEnd() || SteadyClock::now() > end) {
       return false;
     }
     waitForChange([] { return false; });
@@ -260,12 +235,13 @@ std::string LearnerNode::reset(const Run& run, const Exploration::Trial& trial) 
   }
   // Images taken before the move may still be under way: only later ones count.
   const double moved_s = ros::Time::now().toSec();
-  const bool seen = waitUntil([&] {
-    const ObjectState* object = findObject(run.object_id);
-    return object != nullptr && object->stamp_s > moved_s && !object->moving &&
-           distance(object->map_T_object, run.map_T_home) < kPlacedM &&
-           std::abs(yawDifference(object->map_T_object, run.map_T_home)) < kPlacedRad;
-  });
+  const auto stands_there = [&](const ObjectState& object) {
+    return object.stamp_s > moved_s && !object.moving &&
+           distance(object.map_T_object, run.map_T_home) < kPlacedM &&
+           std::abs(yawDifference(object.map_T_object, run.map_T_home)) < kPlacedRad;
+  };
+  const bool seen =
+      objects_.wait(run.object_id, stands_there, kSeenPatienceS, [this] { return shouldEnd(); });
   return seen ? "" : run.object_id + " is not seen where it was put";
 }
 
@@ -277,7 +253,7 @@ std::optional<PushReport> LearnerNode::execute(Run& run, const Exploration::Tria
   for (run.refusals = 0; run.refusals < kRefusals; ++run.refusals) {
     publishProgress(run, trial);
     const std::string problem = reset(run, trial);
-    if (server_.isPreemptRequested() || !ros::ok()) {
+    if (shouldEnd()) {
       run.fail(LearnObjectResult::CANCELLED, "cancelled; finished pushes are kept");
       return std::nullopt;
     }
@@ -311,7 +287,7 @@ std::optional<ExecutePushResult> LearnerNode::call(const ExecutePushGoal& goal, 
     state_changed_.notify_all();
   });
   while (!waitForChange([this] { return push_done_; })) {
-    if (!ros::ok() || server_.isPreemptRequested()) {
+    if (shouldEnd()) {
       execute_push_.cancelGoal();
       run.fail(LearnObjectResult::CANCELLED, "cancelled; finished pushes are kept");
       return std::nullopt;
@@ -366,17 +342,6 @@ void LearnerNode::publishProgress(const Run& run, const Exploration::Trial& tria
   server_.publishFeedback(feedback);
 }
 
-void LearnerNode::onObjects(const PushableObjectArray& message) {
-  try {
-    std::vector<ObjectState> objects = fromMessage(message);
-    const std::lock_guard<std::mutex> lock(state_mutex_);
-    objects_ = std::move(objects);
-    state_changed_.notify_all();
-  } catch (const InputError& error) {
-    ROS_ERROR_THROTTLE(1.0, "objects ignored: %s", error.what());
-  }
-}
-
 void LearnerNode::onReport(const ExecutedPush& message) {
   if (!message.adapted || message.case_id == 0) {
     return;
@@ -429,21 +394,26 @@ void LearnerNode::publishCases() {
   publishMarkers();
 }
 
-void LearnerNode::publishMarkers() {
-  Pose2 map_T_object;
-  std::string model;
-  {
-    const std::lock_guard<std::mutex> lock(state_mutex_);
-    const ObjectState* object = findObject(shown_object_);
-    if (object == nullptr) {
-      return;
-    }
-    map_T_object = object->map_T_object;
-    model = object->model;
-    shown_at_ = map_T_object;
+void LearnerNode::publishMarkersIfMoved() {
+  std::unique_lock<std::mutex> lock(state_mutex_);
+  const std::optional<ObjectState> object = objects_.find(shown_object_);
+  const bool moved = object && distance(object->map_T_object, shown_at_) > kMarkersMoveM;
+  lock.unlock();
+  if (moved) {
+    publishMarkers();
   }
-  const std::lock_guard<std::mutex> lock(base_mutex_);
-  markers_.publish(caseMarkers(base_.cases(model), map_T_object));
+}
+
+void LearnerNode::publishMarkers() {
+  std::unique_lock<std::mutex> lock(state_mutex_);
+  const std::optional<ObjectState> object = objects_.find(shown_object_);
+  if (!object) {
+    return;
+  }
+  shown_at_ = object->map_T_object;
+  lock.unlock();
+  const std::lock_guard<std::mutex> base_lock(base_mutex_);
+  markers_.publish(caseMarkers(base_.cases(object->model), object->map_T_object));
 }
 
 void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {

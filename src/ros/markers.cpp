@@ -159,7 +159,7 @@ std::vector<Eigen::Vector2d> ellipse(const PoseGaussian& gaussian, double sigmas
 std_msgs::ColorRGBA rainbow(double fraction) {
   const double hue = 4.0 * (1.0 - std::clamp(fraction, 0.0, 1.0));  // 0 red ... 4 blue
   const auto channel = [hue](double centre) {
-    return std::clamp(2.0 - std::abs(hue - centre), 0.0, 1.0);
+    return 0.15 + 0.6 * std::clamp(2.0 - std::abs(hue - centre), 0.0, 1.0);  // Muted.
   };
   return colour(channel(0.0), channel(2.0), channel(4.0));
 }

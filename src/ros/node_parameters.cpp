@@ -64,7 +64,9 @@ Furnishing readFurnishing(ParameterReader& reader, const Catalog& catalog) {
   Furnishing furnishing;
   std::string world_name;
   std::string robot_name;
+  std::string object;
   reader.read("world", world_name);
+  reader.read("object", object);
   reader.read("robot", robot_name);
   XmlRpcValue list = reader.raw("objects");
   reader.check([&] {
@@ -74,7 +76,10 @@ Furnishing readFurnishing(ParameterReader& reader, const Catalog& catalog) {
     if (list.valid()) {
       readList(furnishing, catalog, list);
     } else {
-      const WorldModel world = catalog.world(world_name);
+      WorldModel world = catalog.world(world_name);
+      if (!object.empty()) {
+        placeObject(world, catalog, object);
+      }
       for (const ObjectPlacement& placement : world.objects) {
         addInstance(furnishing, catalog.object(placement.model), placement.id,
                     placement.tag_offset);
@@ -173,24 +178,6 @@ Pose2 parsePose(const std::string& text, const std::string& key) {
 }
 
 /// Id of the instance that an object name means: its id, its model or its model's file.
-std::string instanceOf(const WorldModel& world, const Catalog& catalog, const std::string& object) {
-  if (object.empty() && !world.objects.empty()) {
-    return world.objects.front().id;
-  }
-  for (const ObjectPlacement& placement : world.objects) {
-    if (placement.id == object || placement.model == object) {
-      return placement.id;
-    }
-  }
-  const std::string model = catalog.object(object).name;
-  for (const ObjectPlacement& placement : world.objects) {
-    if (catalog.object(placement.model).name == model) {
-      return placement.id;
-    }
-  }
-  throw InputError("object", "there is no " + object + " in world " + world.name);
-}
-
 }  // namespace
 
 const TrackedObject* Furnishing::instance(const std::string& id) const {
@@ -202,7 +189,9 @@ const TrackedObject* Furnishing::instance(const std::string& id) const {
 SimNodeParameters loadSimNodeParameters(ParameterReader reader, const Catalog& catalog) {
   SimNodeParameters parameters;
   std::string world = "office";
+  std::string object;
   reader.read("world", world);
+  reader.read("object", object);
   reader.read("seed", parameters.simulator.seed);
   reader.read("sensor_noise", parameters.simulator.sensor_noise);
   reader.read("command_timeout", parameters.simulator.command_timeout_s);
@@ -212,6 +201,9 @@ SimNodeParameters loadSimNodeParameters(ParameterReader reader, const Catalog& c
   reader.check([&] { parameters.simulator.validate(); });
   reader.check([&] {
     parameters.world = catalog.world(world);
+    if (!object.empty()) {
+      placeObject(parameters.world, catalog, object);
+    }
     parameters.robot = catalog.robot(parameters.world.robot);
     for (const ObjectPlacement& placement : parameters.world.objects) {
       parameters.models.emplace(placement.model, catalog.object(placement.model));
@@ -293,7 +285,7 @@ DemoNodeParameters loadDemoNodeParameters(ParameterReader reader, const Catalog&
   reader.read("time_limit", parameters.time_limit_s, 1.0, kUnbounded);
   reader.check([&] {
     parameters.world = catalog.world(world);
-    parameters.object_id = instanceOf(parameters.world, catalog, object);
+    parameters.object_id = placeObject(parameters.world, catalog, object);
     if (goal.empty() && !parameters.world.goal) {
       throw InputError("goal", "world " + world + " has none; give x [m] y [m] yaw [deg]");
     }

@@ -72,7 +72,7 @@ def wait_until(condition, patience_s=20.0, what="a condition"):
 
 
 def result_of(client, patience_s=30.0):
-    """The result of the goal that a SimpleActionClient sent. The state may come before the result."""
+    """The result of the goal that a SimpleActionClient sent; the state may come before it."""
     wait_until(lambda: client.get_state() > GoalStatus.ACTIVE and client.get_result() is not None,
                patience_s, "a result")
     return client.get_result()

@@ -18,6 +18,7 @@
 
 #include "casepush/ros/action_plan_client.h"
 #include "casepush/ros/activity.h"
+#include "casepush/ros/command_guard.h"
 #include "casepush/ros/diagnostics.h"
 #include "casepush/ros/node_parameters.h"
 #include "casepush/ros/watchdog.h"
@@ -74,6 +75,7 @@ class ExecutorNode {
   double objects_stamp_s_ = -1e9;
   nav_msgs::Odometry odometry_;
 
+  CommandGuard guard_;
   ActionPlanClient plans_;
   std::unique_ptr<Activity> activity_;
   ActivityEnd end_ = ActivityEnd::kFinished;

@@ -7,7 +7,6 @@
 #include <casepush/ExportCases.h>
 #include <casepush/ImportCases.h>
 #include <casepush/LearnObjectAction.h>
-#include <casepush/PushableObjectArray.h>
 #include <ros/ros.h>
 
 #include <condition_variable>
@@ -22,6 +21,7 @@
 #include "casepush/execution/exploration.h"
 #include "casepush/ros/diagnostics.h"
 #include "casepush/ros/node_parameters.h"
+#include "casepush/ros/object_watch.h"
 
 namespace casepush {
 
@@ -50,10 +50,7 @@ class LearnerNode {
   bool waitForExecutor();
   /// Waits for a moment or until the condition on guarded state holds; returns whether it does.
   bool waitForChange(const std::function<bool()>& condition);
-  /// Waits for messages until the condition holds; false if it does not in time or on cancel.
-  bool waitUntil(const std::function<bool()>& condition);
-  const ObjectState* findObject(const std::string& id) const;  ///< @pre state_mutex_ is held.
-  std::optional<ObjectState> seenObject(const std::string& id);
+  bool shouldEnd();  ///< The goal was cancelled, or ROS shuts down.
 
   /// Puts object and robot where the trial starts. Returns why not, or "".
   std::string reset(const Run& run, const Exploration::Trial& trial);
@@ -63,23 +60,23 @@ class LearnerNode {
   void store(Run& run, const Exploration::Trial& trial, const PushReport& report);
   void publishProgress(const Run& run, const Exploration::Trial& trial);
 
-  void onObjects(const PushableObjectArray& message);
   void onReport(const ExecutedPush& message);
   void adaptBy(const PushReport& report);
   bool onExport(ExportCases::Request& request, ExportCases::Response& response);
   bool onImport(ImportCases::Request& request, ImportCases::Response& response);
   void publishCases();
   void publishMarkers();
+  void publishMarkersIfMoved();
   void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   LearnerNodeParameters parameters_;
   ros::NodeHandle handle_;
   std::mutex base_mutex_;
   CaseBase base_;  ///< Guarded by base_mutex_.
+  ObjectWatch objects_;
 
   std::mutex state_mutex_;  ///< Guards the following.
   std::condition_variable state_changed_;
-  std::vector<ObjectState> objects_;
   std::string shown_object_;  ///< Instance around which cases are drawn.
   Pose2 shown_at_;
   bool push_done_ = false;
@@ -87,7 +84,6 @@ class LearnerNode {
   ros::ServiceClient set_pose_;
   ros::Publisher cases_;
   ros::Publisher markers_;
-  ros::Subscriber objects_subscriber_;
   ros::Subscriber reports_subscriber_;
   ros::ServiceServer export_;
   ros::ServiceServer import_;
