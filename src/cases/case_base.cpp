@@ -68,10 +68,15 @@ Case addOutcome(SqliteDatabase& database, std::int64_t id, const Pose2& start_T_
   if (!start_T_object.isFinite()) {
     throw InputError(whereIs(database, id), "observed outcome is not finite");
   }
+  if (start_T_object.position().cwiseAbs().maxCoeff() > kLargestCaseCoordinate_m) {
+    throw InputError(whereIs(database, id),
+                     "observed outcome is too far away; x and y must be within 100 m of 0");
+  }
   const OutcomeStatistics updated = blend({push_case.start_outcome, push_case.effective_count});
   push_case.start_outcome = updated.start_outcome;
   push_case.effective_count = updated.effective_count;
   ++push_case.observation_count;
+  validateCase(push_case, whereIs(database, id));  // Else it could not be read again.
   updateStatistics(database, push_case);
   insertOutcome(database, id, {start_T_object, source, updated.effective_count - 1.0});
   transaction.commit();

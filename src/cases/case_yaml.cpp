@@ -145,6 +145,10 @@ std::vector<ObservedOutcome> readHistory(YamlReader& reader) {
     outcome.source = readWord(entry, "source", &outcomeSourceFromString,
                               "explored, demonstrated, transferred, practised, adapted");
     outcome.start_T_object = readPose(entry, "start_T_object");
+    if (outcome.start_T_object.position().cwiseAbs().maxCoeff() > kLargestCaseCoordinate_m) {
+      throw InputError(entry.where("start_T_object"),
+                       "is too far away; x and y must be within 100 m of 0");
+    }
     outcome.past_weight = entry.number("past_weight", 0.0, kLargest);
     entry.finish();
     history.push_back(outcome);

@@ -100,6 +100,12 @@ YamlReader::YamlReader(YamlReader&&) noexcept = default;
 YamlReader& YamlReader::operator=(YamlReader&&) noexcept = default;
 
 YamlReader YamlReader::fromFile(const std::filesystem::path& path) {
+  std::error_code no_such_file;
+  if (std::filesystem::exists(path, no_such_file) &&
+      !std::filesystem::is_regular_file(path, no_such_file)) {
+    // Not even opened: a FIFO would block.
+    throw InputError(path.string(), "cannot be read; is it a file?");
+  }
   return YamlReader(State::root(path.string(), [&] { return YAML::LoadFile(path.string()); }));
 }
 

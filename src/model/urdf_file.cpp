@@ -11,6 +11,12 @@
 namespace casepush {
 namespace {
 
+// Far beyond any furniture, so that footprints, collision checks and physics stay feasible.
+constexpr double kLargestLength_m = 10.0;
+constexpr double kLargestMass_kg = 1e4;
+constexpr double kLargestInertia_kgm2 = 1e6;
+constexpr double kLargestFriction_nm = 1e4;
+
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose) {
   Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
   isometry.translation() << pose.position.x, pose.position.y, pose.position.z;
@@ -28,6 +34,7 @@ class MechanismBuilder {
     mechanism_.name = model.getName();
     addLink(*model.getRoot());
     addChildren(*model.getRoot(), 0);
+    checkReach();
   }
 
   Mechanism take() { return std::move(mechanism_); }
@@ -54,7 +61,7 @@ class MechanismBuilder {
     for (const urdf::CollisionSharedPtr& collision : parsed.collision_array) {
       PlacedShape shape{toShape(*collision->geometry, where), toIsometry(collision->origin),
                         link.name};
-      requireFinite(shape.frame_T_shape.matrix().allFinite(), where + ": collision origin");
+      requireNear(shape.frame_T_shape, where + ": collision origin");
       link.collision.push_back(std::move(shape));
     }
     if (parsed.visual && parsed.visual->material) {
@@ -75,13 +82,13 @@ class MechanismBuilder {
     }
     joint.parent_link = parent;
     joint.parent_T_joint = toIsometry(parsed.parent_to_joint_origin_transform);
-    requireFinite(joint.parent_T_joint.matrix().allFinite(), where + ": origin");
+    requireNear(joint.parent_T_joint, where + ": origin");
     joint.axis << parsed.axis.x, parsed.axis.y, parsed.axis.z;
     if (joint.type == JointType::kContinuous) {
-      if (!(joint.axis.norm() > 1e-6) || !joint.axis.allFinite()) {
+      if (!(joint.axis.stableNorm() > 1e-6) || !joint.axis.allFinite()) {
         throw InputError(where, "has no axis; must be a finite vector other than zero");
       }
-      joint.axis.normalize();
+      joint.axis.stableNormalize();
       joint.friction_nm = parsed.dynamics ? parsed.dynamics->friction : 0.0;
       checkDynamics(parsed, where);
     }
@@ -92,8 +99,11 @@ class MechanismBuilder {
     if (!joint.dynamics) {
       return;
     }
-    if (!std::isfinite(joint.dynamics->friction) || joint.dynamics->friction < 0.0) {
-      throw InputError(where + ": dynamics friction", "must be finite and not negative [Nm]");
+    if (!(joint.dynamics->friction >= 0.0 && joint.dynamics->friction <= kLargestFriction_nm)) {
+      std::ostringstream text;
+      text << "is " << joint.dynamics->friction << "; must be in [0, " << kLargestFriction_nm
+           << "] Nm";
+      throw InputError(where + ": dynamics friction", text.str());
     }
     if (joint.dynamics->damping != 0.0) {
       throw InputError(where + ": dynamics damping", "is not supported; must be 0, use friction");
@@ -106,20 +116,25 @@ class MechanismBuilder {
     }
     const urdf::Inertial& inertial = *parsed.inertial;
     link->mass_kg = inertial.mass;
-    if (!std::isfinite(link->mass_kg) || link->mass_kg <= 0.0) {
+    if (!(link->mass_kg > 0.0 && link->mass_kg <= kLargestMass_kg)) {
       std::ostringstream text;
-      text << "has a mass of " << link->mass_kg << " kg; must be finite and above 0";
+      text << "has a mass of " << link->mass_kg << " kg; must be above 0 and at most "
+           << kLargestMass_kg << " kg";
       throw InputError(where, text.str());
     }
     link->link_T_inertial = toIsometry(inertial.origin);
-    requireFinite(link->link_T_inertial.matrix().allFinite(), where + ": inertial origin");
+    requireNear(link->link_T_inertial, where + ": inertial origin");
     link->inertia_kgm2 << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy,
         inertial.iyz, inertial.ixz, inertial.iyz, inertial.izz;
-    requireFinite(link->inertia_kgm2.allFinite(), where + ": inertia");
     checkInertia(link->inertia_kgm2, where);
   }
 
   static void checkInertia(const Eigen::Matrix3d& inertia_kgm2, const std::string& where) {
+    if (!inertia_kgm2.allFinite() || inertia_kgm2.cwiseAbs().maxCoeff() > kLargestInertia_kgm2) {
+      std::ostringstream text;
+      text << "must be finite and at most " << kLargestInertia_kgm2 << " kg m^2";
+      throw InputError(where + ": inertia", text.str());
+    }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_kgm2,
                                                                 Eigen::EigenvaluesOnly);
     const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
@@ -154,15 +169,32 @@ class MechanismBuilder {
     } else {
       throw InputError(where, "has a mesh for collision; must be boxes, cylinders or spheres");
     }
-    if (!extents.allFinite() || extents.minCoeff() <= 0.0) {
-      throw InputError(where + ": collision", "has a size that is not finite and above 0 m");
+    if (!extents.allFinite() || extents.minCoeff() <= 0.0 ||
+        extents.maxCoeff() > kLargestLength_m) {
+      std::ostringstream text;
+      text << "has a size that is not above 0 and at most " << kLargestLength_m << " m";
+      throw InputError(where + ": collision", text.str());
     }
     return shape;
   }
 
-  static void requireFinite(bool finite, const std::string& where) {
-    if (!finite) {
+  static void requireNear(const Eigen::Isometry3d& pose, const std::string& where) {
+    if (!pose.matrix().allFinite()) {
       throw InputError(where, "is not finite");
+    }
+    if (pose.translation().cwiseAbs().maxCoeff() > kLargestLength_m) {
+      std::ostringstream text;
+      text << "is (" << pose.translation().transpose() << "); each must be within "
+           << kLargestLength_m << " m of 0";
+      throw InputError(where, text.str());
+    }
+  }
+
+  /// Many short joints may reach far, too.
+  void checkReach() const {
+    for (int i = 0; i < static_cast<int>(mechanism_.links.size()); ++i) {
+      requireNear(mechanism_.root_T_link(i),
+                  file_ + ": link '" + mechanism_.links[i].name + "': place in the root link");
     }
   }
 

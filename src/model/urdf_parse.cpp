@@ -7,6 +7,7 @@
 #include <iterator>
 #include <mutex>
 #include <string>
+#include <system_error>
 
 #include "casepush/common/input_error.h"
 
@@ -44,8 +45,13 @@ class ParserLog : public console_bridge::OutputHandler {
 };
 
 std::string readFile(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) {
+  std::error_code no_such_file;
+  std::ifstream file;
+  // A FIFO would block when it is opened.
+  if (std::filesystem::is_regular_file(path, no_such_file)) {
+    file.open(path);
+  }
+  if (!file.is_open()) {
     throw InputError(path.string(), "cannot be read; is the path right, and is it a URDF file?");
   }
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

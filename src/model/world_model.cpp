@@ -11,6 +11,8 @@ namespace casepush {
 namespace {
 
 constexpr double kLargestCoordinate_m = 1000.0;
+constexpr double kLargestExtent_m = 500.0;
+constexpr double kLargestHeight_m = 100.0;
 
 /// Reads one world; every name in it (boxes, objects, the robot) is taken once.
 class WorldReader {
@@ -48,10 +50,11 @@ class WorldReader {
     const std::vector<double> max_m = reader.numbers("max", 2);
     reader.finish();
     for (int i = 0; i < 2; ++i) {
-      if (max_m[i] - min_m[i] < 0.5 || std::abs(min_m[i]) > kLargestCoordinate_m ||
-          std::abs(max_m[i]) > kLargestCoordinate_m) {
+      const double extent_m = max_m[i] - min_m[i];
+      if (extent_m < 0.5 || extent_m > kLargestExtent_m ||
+          std::abs(min_m[i]) > kLargestCoordinate_m || std::abs(max_m[i]) > kLargestCoordinate_m) {
         throw InputError(reader.where(),
-                         "max must exceed min by 0.5 m, both within 1000 m of the origin");
+                         "max must exceed min by 0.5 m to 500 m, both within 1000 m of the origin");
       }
       world_.min_m(i) = min_m[i];
       world_.max_m(i) = max_m[i];
@@ -64,14 +67,36 @@ class WorldReader {
     const std::vector<double> size_m = reader.numbers("size_m", 3);
     const std::vector<double> xyz_m = reader.numbers("xyz", 3);
     box.box.size_m << size_m[0], size_m[1], size_m[2];
-    if (box.box.size_m.minCoeff() <= 0.0 || box.box.size_m.maxCoeff() > kLargestCoordinate_m) {
-      throw InputError(reader.where("size_m"), "must be above 0 and at most 1000 m");
+    if (box.box.size_m.minCoeff() <= 0.0 || box.box.size_m.maxCoeff() > kLargestExtent_m) {
+      throw InputError(reader.where("size_m"), "must be above 0 and at most 500 m");
     }
     box.map_T_box.translation() << xyz_m[0], xyz_m[1], xyz_m[2];
+    checkPlace(box, reader.where("xyz"));
     const double yaw_rad = reader.has("yaw_deg") ? readAngle(reader, "yaw_deg", -360, 360) : 0.0;
     box.map_T_box.rotate(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
     reader.finish();
     world_.boxes.push_back(std::move(box));
+  }
+
+  /// Boxes may stick out of the bounds, as walls do, but not stand elsewhere.
+  void checkPlace(const StaticBox& box, const std::string& where) const {
+    const Eigen::Vector3d& xyz_m = box.map_T_box.translation();
+    const Eigen::Array2d grown_m = Eigen::Array2d::Constant(box.box.size_m.head<2>().maxCoeff());
+    const Eigen::Array2d low_m = world_.min_m.array() - grown_m;
+    const Eigen::Array2d high_m = world_.max_m.array() + grown_m;
+    const Eigen::Array2d xy_m = xyz_m.head<2>().array();
+    if ((xy_m < low_m).any() || (xy_m > high_m).any()) {
+      std::ostringstream text;
+      text << "(" << xy_m.x() << ", " << xy_m.y()
+           << ") is far outside of the world; must be within (" << low_m.x() << ", " << low_m.y()
+           << ") to (" << high_m.x() << ", " << high_m.y() << ")";
+      throw InputError(where, text.str());
+    }
+    if (std::abs(xyz_m.z()) > kLargestHeight_m) {
+      std::ostringstream text;
+      text << "z is " << xyz_m.z() << "; must be within " << kLargestHeight_m << " m of 0";
+      throw InputError(where, text.str());
+    }
   }
 
   void readObject(YamlReader& reader) {

@@ -1,12 +1,30 @@
 #include "yaml_pose.h"
 
 #include <cmath>
+#include <sstream>
 #include <vector>
+
+#include "casepush/common/input_error.h"
 
 namespace casepush {
 namespace {
 
 constexpr double kRadPerDeg = M_PI / 180.0;
+constexpr double kLargestCoordinate_m = 10.0;  // of what a model carries
+constexpr double kLargestAngle_deg = 360.0;
+
+std::vector<double> readThree(YamlReader& reader, const char* key, double largest,
+                              const char* unit) {
+  const std::vector<double> values = reader.numbers(key, 3);
+  for (const double value : values) {
+    if (std::abs(value) > largest) {
+      std::ostringstream text;
+      text << "holds " << value << "; each must be within " << largest << " " << unit << " of 0";
+      throw InputError(reader.where(key), text.str());
+    }
+  }
+  return values;
+}
 
 }  // namespace
 
@@ -20,8 +38,8 @@ Pose2 readPose2(YamlReader& reader) {
 }
 
 Eigen::Isometry3d readPose3(YamlReader& reader) {
-  const std::vector<double> xyz_m = reader.numbers("xyz", 3);
-  const std::vector<double> rpy_deg = reader.numbers("rpy_deg", 3);
+  const std::vector<double> xyz_m = readThree(reader, "xyz", kLargestCoordinate_m, "m");
+  const std::vector<double> rpy_deg = readThree(reader, "rpy_deg", kLargestAngle_deg, "deg");
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() << xyz_m[0], xyz_m[1], xyz_m[2];
   pose.linear() = (Eigen::AngleAxisd(kRadPerDeg * rpy_deg[2], Eigen::Vector3d::UnitZ()) *

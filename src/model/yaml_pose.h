@@ -13,7 +13,8 @@ double readAngle(YamlReader& reader, const std::string& key, double low_deg, dou
 /// Keys `xy` [m] and `yaw_deg` of a planar pose.
 Pose2 readPose2(YamlReader& reader);
 
-/// Keys `xyz` [m] and `rpy_deg`: roll, pitch, yaw about the fixed x, y, z axes, as in URDF.
+/// Keys `xyz` [m, within 10] and `rpy_deg` [within 360]: roll, pitch, yaw about the fixed x, y, z
+/// axes, as in URDF.
 Eigen::Isometry3d readPose3(YamlReader& reader);
 
 }  // namespace casepush

@@ -34,6 +34,12 @@ int ObjectTrack::add(TrackImage image) {
   return outliers;
 }
 
+void ObjectTrack::forgetAfter(double stamp_s) {
+  while (!history_.empty() && history_.back().image.stamp_s > stamp_s) {
+    history_.pop_back();
+  }
+}
+
 int ObjectTrack::fuse(MotionFilter& filter, const TrackImage& image) const {
   filter.predict(image.stamp_s);
   int used = 0;

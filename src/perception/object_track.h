@@ -42,6 +42,9 @@ class ObjectTrack {
 
   void clear() { history_.clear(); }
 
+  /// Undoes all images later than `stamp_s`.
+  void forgetAfter(double stamp_s);
+
  private:
   struct State {
     std::optional<MotionFilter> filter;

@@ -74,11 +74,14 @@ struct PoseTracker::Data {
   std::map<int, Mount> mounts;  ///< By tag id.
   std::vector<ObjectTrack> tracks;
   double newest_frame_s = -std::numeric_limits<double>::infinity();
+  double last_stale_s = 0.0;
+  int stale_frames = 0;  ///< In a row, each within 1 s of the one before.
   int ignored = 0;
 
   void mountTags(std::size_t index);
   bool accepts(const TagFrame& frame, const Pose2& map_T_robot,
                const Eigen::Isometry3d& base_T_camera);
+  bool isStale(double stamp_s);
 };
 
 void PoseTracker::Data::mountTags(std::size_t index) {
@@ -98,10 +101,30 @@ void PoseTracker::Data::mountTags(std::size_t index) {
   }
 }
 
+// One frame from the future would make all that follow stale. So when they go on, they are right.
+bool PoseTracker::Data::isStale(double stamp_s) {
+  if (stamp_s >= newest_frame_s - kMaxLatenessS) {
+    stale_frames = 0;
+    return false;
+  }
+  const bool goes_on = stale_frames > 0 && std::abs(stamp_s - last_stale_s) <= kMaxLatenessS;
+  stale_frames = goes_on ? stale_frames + 1 : 1;
+  last_stale_s = stamp_s;
+  if (stale_frames < options.reacquire_after) {
+    return true;
+  }
+  for (ObjectTrack& track : tracks) {
+    track.forgetAfter(stamp_s);
+  }
+  newest_frame_s = stamp_s;
+  stale_frames = 0;
+  return false;
+}
+
 bool PoseTracker::Data::accepts(const TagFrame& frame, const Pose2& map_T_robot,
                                 const Eigen::Isometry3d& base_T_camera) {
   if (!std::isfinite(frame.stamp_s) || !map_T_robot.isFinite() ||
-      !base_T_camera.matrix().allFinite() || frame.stamp_s < newest_frame_s - kMaxLatenessS) {
+      !base_T_camera.matrix().allFinite() || isStale(frame.stamp_s)) {
     return false;
   }
   newest_frame_s = std::max(newest_frame_s, frame.stamp_s);
@@ -193,6 +216,7 @@ void PoseTracker::clear() {
     track.clear();
   }
   data_->newest_frame_s = -std::numeric_limits<double>::infinity();
+  data_->stale_frames = 0;
 }
 
 }  // namespace casepush

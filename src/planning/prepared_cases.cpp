@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "casepush/common/check.h"
 
@@ -18,7 +19,10 @@ std::vector<Pose2> resample(const std::vector<Pose2>& poses, double step_m, doub
     if (motion_m < step_m && i + 1 < poses.size()) {
       continue;  // The next pose is compared with the last one kept, so that nothing adds up.
     }
-    const int pieces = std::max(1, static_cast<int>(std::ceil(motion_m / step_m)));
+    const double pieces_needed = std::ceil(motion_m / step_m);
+    CASEPUSH_CHECK(pieces_needed <= std::numeric_limits<int>::max(),
+                   "a motion of " << motion_m << " m in steps of " << step_m << " m");
+    const int pieces = std::max(1, static_cast<int>(pieces_needed));
     for (int k = 1; k <= pieces; ++k) {
       result.push_back(interpolate(from, poses[i], static_cast<double>(k) / pieces));
     }

@@ -18,7 +18,8 @@ namespace casepush {
 /// Usage: read every key, then call `finish()`.
 class YamlReader {
  public:
-  /// @throws InputError if the file cannot be read, is not YAML, or is not a map.
+  /// @throws InputError if the file cannot be read (e.g. a folder or FIFO), is not YAML, or is not
+  /// a map.
   static YamlReader fromFile(const std::filesystem::path& path);
   static YamlReader fromText(const std::string& text, const std::string& name);
 

@@ -40,9 +40,14 @@ struct Case {
   double pushDurationS() const { return period_s * push_steps; }
 };
 
+/// Largest x and y of any pose in a case.
+inline constexpr double kLargestCaseCoordinate_m = 100.0;
+
 /// Checks what every part of the program relies on.
-/// @throws InputError naming `where` and the field: no steps, a value that is not finite, a period
-///   that is not positive, push_steps out of range, a matrix that is no covariance.
+/// @throws InputError naming `where` and the field: a value that is not finite; no or more than
+///   10000 steps; x or y beyond 100 m, a path beyond 1000 m, an action beyond 10 (m/s, rad/s); a
+///   period outside of [0.001, 10] s; push_steps out of range; a matrix that is no covariance or a
+///   standard deviation beyond 100 (m, rad); an effective count outside of (0, 1e9].
 void validateCase(const Case& push_case, const std::string& where);
 
 }  // namespace casepush

@@ -14,7 +14,8 @@ struct PoseTrackerOptions {
   double acceleration_noise_mps2 = 1.5;  ///< Process noise while an object is pushed.
   double yaw_acceleration_noise_rps2 = 4.0;
   double gate_p_value = 1e-4;      ///< Detections less probable than this are outliers.
-  int reacquire_after = 5;         ///< Consecutive outlier images after which the track restarts.
+  int reacquire_after = 5;         ///< Consecutive outlier images (or frames too old) after which
+                                   ///< the track restarts.
   double moving_speed_mps = 0.03;  ///< Above either, an object counts as moving.
   double moving_yaw_rate_rps = 0.06;
   double forget_after_s = 60.0;         ///< Unseen for so long, an object is no longer reported.
@@ -52,7 +53,8 @@ class PoseTracker {
   /// @param map_T_robot  At the image's stamp.
   /// @param base_T_camera  Of the camera that took it.
   /// Frames older than the newest one by more than 1 s, and values that are not finite, are ignored
-  /// and counted.
+  /// and counted. When `reacquire_after` such old frames follow one another, it was the newest one
+  /// whose stamp was wrong: what is later than they are is forgotten, and they count again.
   void addFrame(const TagFrame& frame, const Pose2& map_T_robot,
                 const Eigen::Isometry3d& base_T_camera);
 

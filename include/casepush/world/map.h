@@ -71,7 +71,8 @@ class Map {
 /// They are the centres of all cells into which a box reaches by more than 1 mm, the inside
 /// included, so that what does not collide with the map does not collide with the boxes. The
 /// floor's rim, one layer of cells below z = 0, makes the world's bounds the map's.
-/// @throws InputError unless resolution is in [0.01, 0.5] m.
+/// @throws InputError unless resolution is in [0.01, 0.5] m, and naming the world if it spans more
+///   than 4096 cells along an axis or its boxes would fill more than 50 million.
 std::vector<Eigen::Vector3f> surveyPoints(const WorldModel& world, double resolution_m);
 
 }  // namespace casepush

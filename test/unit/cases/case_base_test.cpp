@@ -50,7 +50,7 @@ TEST_F(CaseBaseTest, givesBackWhatWasAdded) {
 TEST_F(CaseBaseTest, keepsExtremeNumbersBitForBit) {
   Case push_case = recordedCase(2, 4);
   push_case.steps[0].object_T_robot = {1e-300, -0.0, M_PI};
-  push_case.steps[1].action = {std::numeric_limits<double>::denorm_min(), 0.1 + 0.2, -1e300};
+  push_case.steps[1].action = {std::numeric_limits<double>::denorm_min(), 0.1 + 0.2, -10.0};
   push_case.robot = "";
   const std::int64_t id = CaseBase(file_, Access::kCreate).add(push_case);
   expectSameCase(CaseBase(file_, Access::kReadOnly).get(id), push_case);
@@ -176,6 +176,10 @@ TEST_F(CaseBaseTest, badValuesAreRefusedAndNothingIsStored) {
                   base.observe(id, {0.0, std::nan(""), 0.0}, {});
                 }),
                 file_, "case 1: observed outcome is not finite");
+  expectRefusal(inputErrorOf([&] {
+                  base.observe(id, {150.0, 0.0, 0.0}, {});
+                }),
+                file_, "case 1: observed outcome is too far away; x and y must be within 100 m");
   EXPECT_NE(inputErrorOf([&] { base.observe(id, {}, {-1.0, 1.0}); }), "");
   expectSameCase(base.get(id), before);
   EXPECT_EQ(base.observations(id).size(), 1u);

@@ -56,7 +56,7 @@ TEST_F(CaseYaml, roundTripIsExact) {
         recordedCase(100 + i, 1 + 7 * i, i % 2 == 0 ? "chair" : "say: \"#1\" {t\\able}");
     push_case.origin = static_cast<CaseOrigin>(i % 3);
     push_case.robot = i == 3 ? "" : "cobot";
-    push_case.steps[0].action.vx_mps = std::pow(10.0, random.uniform(-320.0, 300.0));
+    push_case.steps[0].action.vx_mps = std::pow(10.0, random.uniform(-320.0, 1.0));
     const std::int64_t id = base.add(push_case);
     for (int k = 0; k < 3 * i; ++k) {
       base.observe(id, randomPose(random), {});
@@ -116,6 +116,29 @@ TEST_F(CaseYaml, badValuesAreNamed) {
                       "cases[0].origin: is 'dreamt'; must be one of explored");
   expectImportRefused(altered("source: explored", "source: heard"), "cases[0].history[0].source");
   expectImportRefused(altered("object: \"chair\"", "object: \"\""), "cases[0].object");
+}
+
+TEST_F(CaseYaml, hugeValuesAreNamed) {
+  const std::string text = good();
+  const auto first_of = [&text](const std::string& section, const std::string& key) {
+    const std::size_t at = text.find(key + ": [", text.find(section));
+    return text.substr(at, text.find(']', at) + 1 - at);
+  };
+  const std::string steps = "    steps:";
+  const std::string pose = first_of(steps, "start_T_object");
+  std::string far = text;
+  far.replace(text.find(pose, text.find(steps)), pose.size(), "start_T_object: [1e7, 0, 0]");
+  expectImportRefused(far, "steps[0].start_T_object: is at (1e+07, 0); x and y must be within 100");
+  far = text;
+  const std::string past = first_of("    history:", "start_T_object");
+  far.replace(text.find(past), past.size(), "start_T_object: [0, 1e7, 0]");
+  expectImportRefused(far, "cases[0].history[0].start_T_object: is too far away");
+  expectImportRefused(altered("mean: [0.5", "mean: [1e300"), "mean: is at (1e+300, 0.25)");
+  expectImportRefused(altered("action: [0.375", "action: [1e300"), "steps[1].action: is (1e+300");
+  expectImportRefused(altered("period_s: 0.1", "period_s: 1e300"), "period_s: is 1e+300");
+  expectImportRefused(altered("effective_count: 1", "effective_count: 1e10"),
+                      "effective_count: is");
+  expectImportRefused(altered("covariance: [0.25", "covariance: [1e300"), "covariance: has a");
 }
 
 TEST_F(CaseYaml, missingAndUnknownKeysAreNamed) {

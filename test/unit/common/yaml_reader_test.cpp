@@ -1,6 +1,7 @@
 #include "casepush/common/yaml_reader.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <locale>
 
@@ -119,6 +120,14 @@ TEST(YamlReader, refusesFilesThatAreNoMaps) {
   }
   EXPECT_EQ(inputErrorText([&] { YamlReader::fromFile(folder.path()); }),
             folder.path().string() + ": cannot be read; is it a file?");
+}
+
+TEST(YamlReader, refusesAFifoWithoutWaiting) {
+  const TemporaryFolder folder;
+  const std::string fifo = (folder.path() / "fifo.yaml").string();
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(inputErrorText([&] { YamlReader::fromFile(fifo); }),
+            fifo + ": cannot be read; is it a file?");
 }
 
 /// Writes 0.5 as "0,5", as the locales of half of Europe do.

@@ -1,6 +1,7 @@
 #include "casepush/model/mechanism.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "common/input_error_text.h"
 #include "common/temporary_folder.h"
@@ -99,9 +100,9 @@ TEST_F(LoadMechanism, refusesALinkWithoutInertia) {
 TEST_F(LoadMechanism, refusesBadMasses) {
   const std::string mass = R"(<mass value="10"/>)";
   EXPECT_EQ(errorWith(mass, R"(<mass value="0"/>)"),
-            "link 'body': has a mass of 0 kg; must be finite and above 0");
+            "link 'body': has a mass of 0 kg; must be above 0 and at most 10000 kg");
   EXPECT_EQ(errorWith(mass, R"(<mass value="-1"/>)"),
-            "link 'body': has a mass of -1 kg; must be finite and above 0");
+            "link 'body': has a mass of -1 kg; must be above 0 and at most 10000 kg");
   for (const char* value : {"nan", "inf", "1e999", "1,5", "ten"}) {
     EXPECT_EQ(errorWith(mass, std::string("<mass value=\"") + value + "\"/>"),
               std::string("is not a valid URDF: Inertial: mass [") + value +
@@ -139,7 +140,7 @@ TEST_F(LoadMechanism, refusesUnsupportedJoints) {
   EXPECT_EQ(errorWith(R"(<axis xyz="0 0 1"/>)", R"(<axis xyz="0 0 0"/>)"),
             "joint 'swivel': has no axis; must be a finite vector other than zero");
   EXPECT_EQ(errorWith(R"(friction="0.1")", R"(friction="-0.1")"),
-            "joint 'swivel': dynamics friction: must be finite and not negative [Nm]");
+            "joint 'swivel': dynamics friction: is -0.1; must be in [0, 10000] Nm");
   EXPECT_EQ(errorWith(R"(friction="0.1")", R"(friction="0.1" damping="2")"),
             "joint 'swivel': dynamics damping: is not supported; must be 0, use friction");
 }
@@ -149,12 +150,61 @@ TEST_F(LoadMechanism, refusesBadShapes) {
   EXPECT_EQ(errorWith(sphere, R"(<mesh filename="package://casepush/wheel.stl"/>)"),
             "link 'fixed_wheel': has a mesh for collision; must be boxes, cylinders or spheres");
   EXPECT_EQ(errorWith(sphere, R"(<sphere radius="0"/>)"),
-            "link 'fixed_wheel': collision: has a size that is not finite and above 0 m");
+            "link 'fixed_wheel': collision: has a size that is not above 0 and at most 10 m");
   EXPECT_EQ(errorWith(sphere, R"(<sphere radius="-1"/>)"),
-            "link 'fixed_wheel': collision: has a size that is not finite and above 0 m");
+            "link 'fixed_wheel': collision: has a size that is not above 0 and at most 10 m");
   EXPECT_NE(errorWith(sphere, R"(<sphere radius="nan"/>)"), "");
   EXPECT_NE(errorWith(sphere, ""), "");
   EXPECT_NE(errorWith(R"(<origin xyz="-0.2 0 0.05"/>)", R"(<origin xyz="-0.2 nan 0.05"/>)"), "");
+}
+
+TEST_F(LoadMechanism, refusesHugeNumbers) {
+  EXPECT_EQ(errorWith(R"(<mass value="10"/>)", R"(<mass value="1e300"/>)"),
+            "link 'body': has a mass of 1e+300 kg; must be above 0 and at most 10000 kg");
+  EXPECT_EQ(errorWith(kBodyInertia, R"(ixx="1e7" ixy="0" ixz="0" iyy="1e7" iyz="0" izz="1e7")"),
+            "link 'body': inertia: must be finite and at most 1e+06 kg m^2");
+  EXPECT_EQ(errorWith(R"(friction="0.1")", R"(friction="1e5")"),
+            "joint 'swivel': dynamics friction: is 100000; must be in [0, 10000] Nm");
+  const std::string too_large = "collision: has a size that is not above 0 and at most 10 m";
+  EXPECT_EQ(errorWith(R"(<sphere radius="0.05"/>)", R"(<sphere radius="1e6"/>)"),
+            "link 'fixed_wheel': " + too_large);
+  EXPECT_EQ(errorWith(R"(<cylinder radius="0.05" length="0.04"/>)",
+                      R"(<cylinder radius="0.05" length="1e6"/>)"),
+            "link 'wheel': " + too_large);
+  const std::string box = R"(<box size="0.6 0.4 0.2"/></geometry>
+    </collision>)";
+  EXPECT_EQ(errorWith(box, R"(<box size="0.6 11 0.2"/></geometry></collision>)"),
+            "link 'body': " + too_large);
+}
+
+TEST_F(LoadMechanism, refusesWhatIsFarAway) {
+  const std::string bound = "; each must be within 10 m of 0";
+  const std::string joint = R"(<origin xyz="-0.2 0 0.05"/>)";
+  EXPECT_NE(errorWith(joint, R"(<origin xyz="-1e6 0 0.05"/>)").find(bound), std::string::npos);
+  EXPECT_EQ(errorWith(joint, R"(<origin xyz="0 11 0"/>)"),
+            "joint 'fixed_axle': origin: is ( 0 11  0)" + bound);
+  EXPECT_EQ(errorWith(R"(<origin xyz="0 0 0.3"/>)", R"(<origin xyz="0 11 0"/>)"),
+            "link 'body': collision origin: is ( 0 11  0)" + bound);
+  EXPECT_EQ(errorWith(R"(<origin xyz="0.1 0 0.3"/>)", R"(<origin xyz="0 11 0"/>)"),
+            "link 'body': inertial origin: is ( 0 11  0)" + bound);
+  const std::string swivel = R"(<origin xyz="0.2 0.1 0.12"/>)";
+  EXPECT_EQ(errorOf(replaced(replaced(smallCartUrdf(), swivel, R"(<origin xyz="9 0 0"/>)"),
+                             R"(<origin xyz="-0.02 0 -0.07"/>)", R"(<origin xyz="2 0 0"/>)")),
+            "link 'wheel': place in the root link: is (11  0  0)" + bound);
+}
+
+TEST_F(LoadMechanism, normalisesEvenHugeAxes) {
+  const Mechanism cart =
+      loadMechanism(folder_.write("cart.urdf", replaced(smallCartUrdf(), R"(<axis xyz="0 0 1"/>)",
+                                                        R"(<axis xyz="0 0 1e300"/>)")));
+  EXPECT_EQ(cart.joints[cart.linkIndex("fork") - 1].axis, Eigen::Vector3d::UnitZ());
+}
+
+TEST_F(LoadMechanism, refusesAFifoWithoutWaiting) {
+  const std::string fifo = (folder_.path() / "fifo.urdf").string();
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(inputErrorText([&] { loadMechanism(fifo); }),
+            fifo + ": cannot be read; is the path right, and is it a URDF file?");
 }
 
 TEST_F(LoadMechanism, refusesTwoRoots) {

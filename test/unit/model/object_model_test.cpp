@@ -162,6 +162,12 @@ TEST_F(LoadObjectModel, refusesBadTags) {
             "cart.yaml: tags[0].size_m: is 0; must be a number in [0.01, 1]");
   EXPECT_EQ(yamlError("xyz: [0.31, 0, 0.3]", "xyz: [nan, 0, 0.3]"),
             "cart.yaml: tags[0].xyz: is not finite; must be a list of 3 finite numbers");
+  EXPECT_EQ(yamlError("xyz: [0.31, 0, 0.3]", "xyz: [0.31, 0, -1e6]"),
+            "cart.yaml: tags[0].xyz: holds -1e+06; each must be within 10 m of 0");
+  EXPECT_EQ(yamlError("rpy_deg: [-90, 0, 90]", "rpy_deg: [-90, 0, 1e300]"),
+            "cart.yaml: tags[0].rpy_deg: holds 1e+300; each must be within 360 deg of 0");
+  EXPECT_EQ(yamlError("size_m: 0.1", "size_m: 1e6"),
+            "cart.yaml: tags[0].size_m: is 1e+06; must be a number in [0.01, 1]");
   EXPECT_EQ(errorOf(smallCartUrdf(), "class: cart\n"),
             "cart.yaml: tags: must list at least one tag");
   EXPECT_EQ(errorOf(smallCartUrdf(), "class: cart\ntags: []\n"),

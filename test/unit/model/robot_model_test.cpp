@@ -71,6 +71,21 @@ TEST_F(LoadRobotModel, refusesARobotWithoutShape) {
             (folder_.path() / "bot.urdf").string() + ": has no collision shapes");
 }
 
+TEST_F(LoadRobotModel, refusesHugeNumbers) {
+  for (const char* key :
+       {"max_speed_mps: 0.5", "max_yaw_rate_rps: 1.0", "max_acceleration_mps2: 0.8",
+        "max_yaw_acceleration_rps2: 2.0", "max_force_n: 150", "max_torque_nm: 40", "width_px: 640",
+        "height_px: 480", "horizontal_fov_deg: 90", "rate_hz: 15", "latency_s: 0.05",
+        "max_range_m: 5", "max_view_angle_deg: 70", "corner_noise_px: 0.3"}) {
+    const std::string name(key, std::string(key).find(':') + 2);
+    EXPECT_NE(yamlError(key, name + "1e6").find("is 1e+06; must be a number in ["),
+              std::string::npos)
+        << key;
+  }
+  EXPECT_EQ(yamlError("xyz: [0, 0.3, 0.5]", "xyz: [0, 1e300, 0.5]"),
+            "cameras[0].xyz: holds 1e+300; each must be within 10 m of 0");
+}
+
 TEST_F(LoadRobotModel, refusesBadYaml) {
   EXPECT_EQ(yamlError("max_force_n: 150", "max_force_n: 0"),
             "limits.max_force_n: is 0; must be a number in [1, 5000]");

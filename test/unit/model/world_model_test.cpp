@@ -97,13 +97,29 @@ TEST_F(LoadWorldModel, refusesBadNumbersAndUnknownKeys) {
   EXPECT_EQ(errorWith("friction: 0.7", "friction: -1"),
             "floor.friction: is -1; must be a number in [0.01, 2]");
   EXPECT_EQ(errorWith("size_m: [1, 2, 0.1]", "size_m: [1, 0, 0.1]"),
-            "boxes[1].size_m: must be above 0 and at most 1000 m");
+            "boxes[1].size_m: must be above 0 and at most 500 m");
   EXPECT_EQ(errorWith("max: [4, 5]", "max: [4, -5]"),
-            "bounds: max must exceed min by 0.5 m, both within 1000 m of the origin");
+            "bounds: max must exceed min by 0.5 m to 500 m, both within 1000 m of the origin");
   EXPECT_EQ(errorWith("tag_offset: 10", "tag_ofset: 10"), "objects[0]: unknown key(s): tag_ofset");
   EXPECT_EQ(errorWith("goal:", "gaol:"), "unknown key(s): gaol");
   EXPECT_EQ(errorWith("robot: {model: bot, xy: [-1, 0], yaw_deg: 90}\n", ""),
             "robot: is missing; must be a map");
+}
+
+TEST_F(LoadWorldModel, refusesWhatIsHugeOrFarAway) {
+  EXPECT_EQ(errorWith("max: [4, 5]", "max: [499, 5]"),
+            "bounds: max must exceed min by 0.5 m to 500 m, both within 1000 m of the origin");
+  EXPECT_EQ(errorWith("size_m: [1, 2, 0.1]", "size_m: [1, 2, 501]"),
+            "boxes[1].size_m: must be above 0 and at most 500 m");
+  EXPECT_EQ(
+      errorWith("xyz: [0, 0, 0.7]", "xyz: [1e9, 0, 0.7]"),
+      "boxes[1].xyz: (1e+09, 0) is far outside of the world; must be within (-4, -5) to (6, 7)");
+  EXPECT_EQ(
+      errorWith("xyz: [0, 0, 0.7]", "xyz: [0, -5.1, 0.7]"),
+      "boxes[1].xyz: (0, -5.1) is far outside of the world; must be within (-4, -5) to (6, 7)");
+  EXPECT_EQ(errorWith("xyz: [0, 0, 0.7]", "xyz: [0, -4.9, 0.7]"), "");
+  EXPECT_EQ(errorWith("xyz: [0, 0, 0.7]", "xyz: [0, 0, -101]"),
+            "boxes[1].xyz: z is -101; must be within 100 m of 0");
 }
 
 TEST_F(LoadWorldModel, refusesFilesThatCannotBeReadOrAreCutOff) {

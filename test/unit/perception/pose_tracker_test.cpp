@@ -289,6 +289,62 @@ TEST(PoseTracker, ignoresAndCountsStaleBadAndUnknown) {
   EXPECT_DOUBLE_EQ(scene.state(3.1).stamp_s, 59 * kFrameS);
 }
 
+TEST(PoseTracker, recoversFromAFrameOutOfTheFuture) {
+  for (const bool sees_object : {true, false}) {
+    Scene scene(6);
+    const Pose2 truth(1.5, 0.0, 0.0);
+    int i = 0;
+    for (; i < 60; ++i) {
+      scene.see(truth, i * kFrameS);
+    }
+    TagFrame wrong = scene.frame(truth, 1e9);
+    if (!sees_object) wrong.detections.clear();
+    scene.add(wrong);
+    const int before = scene.tracker().ignoredDetections();
+    for (int k = 0; k < 4; ++k) {
+      scene.see(truth, i++ * kFrameS);
+    }
+    EXPECT_EQ(scene.tracker().ignoredDetections(), before + 4);
+    for (int k = 0; k < 20; ++k) {
+      scene.see(truth, i * kFrameS);
+      EXPECT_DOUBLE_EQ(scene.state(i * kFrameS).stamp_s, i * kFrameS);
+      ++i;
+    }
+    EXPECT_EQ(scene.tracker().ignoredDetections(), before + 4);
+    EXPECT_LT(distance(scene.state(i * kFrameS).map_T_object, truth), 0.03);
+  }
+}
+
+TEST(PoseTracker, remembersRestingObjectsWhenAFrameOutOfTheFutureWasWrong) {
+  Scene scene(6);
+  const Pose2 truth(1.5, 0.0, 0.0);
+  for (int i = 0; i < 60; ++i) {
+    scene.see(truth, i * kFrameS);
+  }
+  scene.add({"front", 1e9, {}});
+  for (int i = 60; i < 80; ++i) {
+    scene.add({"front", i * kFrameS, {}});
+  }
+  EXPECT_LT(distance(scene.state(4.0).map_T_object, truth), 0.02);
+  EXPECT_DOUBLE_EQ(scene.state(4.0).stamp_s, 59 * kFrameS);
+}
+
+TEST(PoseTracker, ignoresOldFramesAsLongAsNewOnesCome) {
+  Scene scene(6);
+  const Pose2 truth(1.5, 0.0, 0.0);
+  for (int i = 0; i < 60; ++i) {
+    scene.see(truth, 100.0 + i * kFrameS);
+    if (i % 2 == 0) scene.see(Pose2(3.0, 1.0, 0.0), i * kFrameS);
+  }
+  EXPECT_EQ(scene.tracker().ignoredDetections(), 30);
+  // Nor do old ones count that are from here and there.
+  for (int i = 0; i < 20; ++i) {
+    scene.see(Pose2(3.0, 1.0, 0.0), 2.0 * i);
+  }
+  EXPECT_EQ(scene.tracker().ignoredDetections(), 50);
+  EXPECT_LT(distance(scene.state(103.0).map_T_object, truth), 0.02);
+}
+
 TEST(PoseTracker, clearForgetsAndAcceptsEarlierStamps) {
   Scene scene(6);
   scene.see(Pose2(1.5, 0.0, 0.0), 100.0);

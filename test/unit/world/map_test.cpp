@@ -200,6 +200,37 @@ TEST(SurveyPointsTest, fillsBoxesCompletelyAndNothingElse) {
   EXPECT_NEAR((map.max() - Eigen::Vector3d(2, 2, 0.6)).norm(), 0.0, 1e-9);
 }
 
+std::string surveyError(const StaticBox& box, double resolution_m) {
+  WorldModel world;
+  world.name = "hall";
+  world.boxes = {box};
+  return errorOf([&] { surveyPoints(world, resolution_m); });
+}
+
+TEST(SurveyPointsTest, refusesWorldsThatAreTooLarge) {
+  EXPECT_EQ(surveyError({"cube", {{1000, 1000, 1000}}, placed(0, 0, 500)}, 0.05),
+            "world 'hall': is too large to be surveyed at 0.05 m: it spans 20000 cells; must be at "
+            "most 4096");
+  EXPECT_EQ(
+      surveyError({"cube", {{100, 100, 100}}, placed(0, 0, 50)}, 0.1)
+          .find("world 'hall': is too large to be surveyed at 0.1 m: its boxes fill up to 1.0"),
+      0U);
+  StaticBox wall{"wall", {{140, 0.1, 100}}, placed(0, 0, 50)};
+  wall.map_T_box.rotate(Eigen::AngleAxisd(M_PI / 4, Eigen::Vector3d::UnitZ()));
+  EXPECT_EQ(
+      surveyError(wall, 0.05)
+          .find("world 'hall': is too large to be surveyed at 0.05 m: around its boxes lie 7.87"),
+      0U)
+      << surveyError(wall, 0.05);
+  EXPECT_NE(surveyError({"far", {{1, 1, 1}}, placed(1e300, 0, 0)}, 0.05).find("it spans"),
+            std::string::npos);
+  WorldModel remote;
+  remote.min_m = {1e6, 1e6};
+  remote.max_m = {1e6 + 5.0, 1e6 + 5.0};
+  expectError([&] { surveyPoints(remote, 0.05); },
+              "it reaches 1e+06 m away from the origin; must be at most 1638.35 m");
+}
+
 TEST(SurveyPointsTest, coversEveryPointOfTurnedBoxes) {
   Random random(11);
   for (int round = 0; round < 5; ++round) {
