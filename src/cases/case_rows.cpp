@@ -95,18 +95,6 @@ void bindStatistics(SqliteStatement& statement, const Case& push_case) {
 
 }  // namespace
 
-const char* toString(CaseOrigin origin) {
-  switch (origin) {
-    case CaseOrigin::kExplored:
-      return "explored";
-    case CaseOrigin::kDemonstrated:
-      return "demonstrated";
-    case CaseOrigin::kTransferred:
-      break;
-  }
-  return "transferred";
-}
-
 std::optional<CaseOrigin> caseOriginFromString(const std::string& text) {
   for (const CaseOrigin origin :
        {CaseOrigin::kExplored, CaseOrigin::kDemonstrated, CaseOrigin::kTransferred}) {

@@ -16,7 +16,6 @@ struct CaseRecord {
   std::vector<ObservedOutcome> history;
 };
 
-const char* toString(CaseOrigin origin);
 std::optional<CaseOrigin> caseOriginFromString(const std::string& text);
 const char* toString(OutcomeSource source);
 std::optional<OutcomeSource> outcomeSourceFromString(const std::string& text);

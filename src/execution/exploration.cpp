@@ -8,6 +8,7 @@
 #include "casepush/common/input_error.h"
 #include "casepush/planning/prepared_cases.h"
 #include "coverage.h"
+#include "failure_tally.h"
 #include "push_candidates.h"
 #include "violations.h"
 
@@ -29,6 +30,8 @@ struct KnownCase {
   PoseGaussian outcome;
   double effective_count;
   int observations;
+  bool is_new = false;     ///< Found by this run: it may be removed again.
+  bool set_aside = false;  ///< Of an earlier run, and failing now: kept, but not practised.
 };
 
 KnownCase known(const Case& push_case, std::int64_t id) {
@@ -37,7 +40,9 @@ KnownCase known(const Case& push_case, std::int64_t id) {
           pushDirection(push_case),
           push_case.start_outcome,
           push_case.effective_count,
-          push_case.observation_count};
+          push_case.observation_count,
+          false,
+          false};
 }
 
 }  // namespace
@@ -62,10 +67,14 @@ void ExplorationOptions::validate() const {
 struct Exploration::Data {
   Data(const ObjectModel& object, const RobotModel& robot, const ExplorationOptions& given)
       : options(given),
+        object_name(object.name),
+        robot_name(robot.name),
         gyration_radius_m(object.gyration_radius_m),
         candidates(object, robot, given) {}
 
   ExplorationOptions options;
+  std::string object_name;
+  std::string robot_name;
   double gyration_radius_m;
   PushCandidates candidates;
 
@@ -76,7 +85,7 @@ struct Exploration::Data {
   int useless_in_row = 0;  ///< First trials since the last case.
   int failed_in_row = 0;   ///< Practices of the present case.
   double spacing_m = kFirstSpacingM;
-  int discarded = 0;
+  FailureTally failures;
   int dropped = 0;
   int pushes_of_dropped = 0;
 
@@ -87,9 +96,11 @@ struct Exploration::Data {
   Verdict judgeTrial(const PushReport& report);
   Verdict judgePractice(KnownCase& practised, const PushReport& report,
                         const std::optional<Case>& updated);
-  Verdict drop(KnownCase& practised);
+  Verdict reject(KnownCase& practised);
   bool isTooUncertain(const KnownCase& practised) const;
-  bool gaveUp() const { return discarded + pushes_of_dropped >= options.max_failures; }
+  bool gaveUp() const {
+    return failures.isBlind() || failures.total() + pushes_of_dropped >= options.max_failures;
+  }
   bool finished();
 };
 
@@ -103,7 +114,7 @@ std::vector<Pose2> Exploration::Data::outcomes() const {
 
 KnownCase* Exploration::Data::toPractise() {
   for (KnownCase& push_case : cases) {
-    if (push_case.observations < options.practices) {
+    if (push_case.observations < options.practices && !push_case.set_aside) {
       return &push_case;
     }
   }
@@ -137,9 +148,10 @@ Exploration::Verdict Exploration::Data::judgeTrial(const PushReport& report) {
   if (isUseful(report)) {
     to_store = report.recorded;
     useless_in_row = 0;
+    failures.addUseful();
     return Verdict::kStoreCase;
   }
-  ++discarded;
+  failures.add(report.outcome);
   ++useless_in_row;
   drawCandidate();
   return Verdict::kDiscard;
@@ -152,10 +164,14 @@ bool Exploration::Data::isTooUncertain(const KnownCase& practised) const {
           sigma.yaw_rad > options.max_yaw_sigma_rad);
 }
 
-Exploration::Verdict Exploration::Data::drop(KnownCase& practised) {
+Exploration::Verdict Exploration::Data::reject(KnownCase& practised) {
+  failed_in_row = 0;
+  if (!practised.is_new) {
+    practised.set_aside = true;
+    return Verdict::kDiscard;
+  }
   ++dropped;
   pushes_of_dropped += practised.observations;
-  failed_in_row = 0;
   cases.erase(cases.begin() + (&practised - cases.data()));
   drawCandidate();
   return Verdict::kDropCase;
@@ -165,14 +181,23 @@ Exploration::Verdict Exploration::Data::judgePractice(KnownCase& practised,
                                                       const PushReport& report,
                                                       const std::optional<Case>& updated) {
   if (!isObservation(report) || !updated) {
-    ++discarded;
-    return ++failed_in_row >= kMaxFailuresInRow ? drop(practised) : Verdict::kDiscard;
+    failures.add(report.outcome);
+    if (FailureTally::isNoFaultOfThePush(report.outcome)) {
+      return Verdict::kDiscard;
+    }
+    return ++failed_in_row >= kMaxFailuresInRow ? reject(practised) : Verdict::kDiscard;
   }
   CASEPUSH_CHECK(updated->id == practised.id,
                  "practised case " << practised.id << ", was given " << updated->id);
   failed_in_row = 0;
+  failures.addUseful();
+  const bool is_new = practised.is_new;
   practised = known(*updated, practised.id);
-  return isTooUncertain(practised) ? drop(practised) : Verdict::kObserve;
+  practised.is_new = is_new;
+  if (!isTooUncertain(practised)) {
+    return Verdict::kObserve;
+  }
+  return is_new ? reject(practised) : Verdict::kObserve;
 }
 
 Exploration::Exploration(ObjectModel object, RobotModel robot, ExplorationOptions options) {
@@ -191,9 +216,11 @@ Exploration::~Exploration() = default;
 
 void Exploration::resume(const std::vector<Case>& cases) {
   for (const Case& push_case : cases) {
-    data_->cases.push_back(known(push_case, push_case.id));
+    if (isFor(push_case, data_->object_name, data_->robot_name)) {
+      data_->cases.push_back(known(push_case, push_case.id));
+    }
   }
-  data_->attempt += static_cast<int>(cases.size());
+  data_->attempt += static_cast<int>(data_->cases.size());
   data_->drawCandidate();
 }
 
@@ -233,6 +260,7 @@ Exploration::Verdict Exploration::judge(const PushReport& report,
 void Exploration::stored(std::int64_t case_id) {
   CASEPUSH_CHECK(data_->to_store.has_value(), "nothing was to be stored");
   data_->cases.push_back(known(*data_->to_store, case_id));
+  data_->cases.back().is_new = true;
   data_->to_store.reset();
   data_->drawCandidate();
 }
@@ -241,7 +269,9 @@ bool Exploration::finished() const { return data_->finished() || data_->gaveUp()
 
 bool Exploration::gaveUp() const { return !data_->finished() && data_->gaveUp(); }
 
-int Exploration::discarded() const { return data_->discarded; }
+int Exploration::discarded() const { return data_->failures.total(); }
+
+std::string Exploration::explanation() const { return data_->failures.describe(); }
 
 int Exploration::dropped() const { return data_->dropped; }
 

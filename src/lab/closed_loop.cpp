@@ -6,7 +6,9 @@ namespace casepush {
 namespace {
 
 constexpr double kPoseHistoryS = 1.0;
+// Time for the tracker to settle on an object that was put somewhere, and for it to be seen at all.
 constexpr double kLookAfterPlacingS = 0.3;
+constexpr double kLookLimitS = 1.5;
 
 std::map<std::string, ObjectModel> loadModels(const Catalog& catalog, const WorldModel& world) {
   std::map<std::string, ObjectModel> models;
@@ -79,10 +81,20 @@ void ClosedLoop::idle(double duration_s) {
 
 void ClosedLoop::place(const std::map<std::string, Pose2>& map_T_bodies) {
   simulator_.setPoses(map_T_bodies);
-  simulator_.takeTagFrames();
+  placed_s_ = simulator_.time();
   robot_poses_.clear();
   tracker_ = std::make_unique<PoseTracker>(tracked_, options_.tracker);
-  idle(kLookAfterPlacingS);
+  const auto seen = [this](const std::string& id) {
+    const Observation now = observe();
+    const ObjectState* object = now.object(id);
+    return object != nullptr && object->stamp_s >= placed_s_ + kLookAfterPlacingS;
+  };
+  for (const auto& [id, pose] : map_T_bodies) {
+    const double give_up_s = placed_s_ + kLookLimitS;
+    while (id != "robot" && !seen(id) && simulator_.time() < give_up_s) {
+      advance(Twist2{});
+    }
+  }
 }
 
 void ClosedLoop::advance(const Twist2& robot_twist) {
@@ -107,6 +119,9 @@ void ClosedLoop::perceive() {
     robot_poses_.erase(robot_poses_.begin());
   }
   for (const TagFrame& frame : simulator_.takeTagFrames()) {
+    if (frame.stamp_s < placed_s_) {
+      continue;  // Shows the world as it was before a teleport.
+    }
     tracker_->addFrame(frame, robotPoseAt(frame.stamp_s), base_T_camera_.at(frame.camera));
   }
 }

@@ -90,9 +90,7 @@ LearningResult learnInLab(const Catalog& catalog, const std::string& object,
   result.sim_time_s = loop.simulator().time();
   result.success = exploration.finished() && !exploration.gaveUp();
   if (exploration.gaveUp()) {
-    result.explanation = "gave up after " + std::to_string(result.discarded) +
-                         " useless pushes; allow faster or longer pushes, or check that the robot "
-                         "can reach the object";
+    result.explanation = exploration.explanation();
   } else if (result.success) {
     result.explanation = "learnt " + std::to_string(options.exploration.cases) + " cases";
   }

@@ -11,18 +11,9 @@ namespace {
 constexpr int kAttempts = 20000;
 constexpr double kRobotStartGapM = 0.3;
 
-ObjectPlacement& placementOf(WorldModel& world, const Catalog& catalog, const std::string& object) {
-  if (world.objects.empty()) {
-    throw InputError("world " + world.name, "holds no object; add one under `objects`");
-  }
-  const std::string wanted = catalog.object(object).name;
-  for (ObjectPlacement& placement : world.objects) {
-    if (catalog.object(placement.model).name == wanted) {
-      return placement;
-    }
-  }
-  world.objects.front().model = object;
-  return world.objects.front();
+ObjectPlacement& placementOf(WorldModel& world, const std::string& id) {
+  return *std::find_if(world.objects.begin(), world.objects.end(),
+                       [&id](const ObjectPlacement& placement) { return placement.id == id; });
 }
 
 Pose2 randomPose(const WorldModel& world, Random& random) {
@@ -95,7 +86,7 @@ std::shared_ptr<const Map> surveyMap(const WorldModel& world, double resolution_
 PushProblem problemFromWorld(const Catalog& catalog, const WorldModel& world,
                              const std::string& object, const Pose2& map_T_goal) {
   PushProblem problem{world, "", map_T_goal};
-  problem.object_id = placementOf(problem.world, catalog, object).id;
+  problem.object_id = placeObject(problem.world, catalog, object);
   return problem;
 }
 
@@ -103,8 +94,8 @@ PushProblem randomProblem(const Catalog& catalog, const WorldModel& world,
                           const std::string& object, std::uint64_t seed, double min_distance_m,
                           double clearance_m) {
   PushProblem problem{world, "", Pose2()};
-  ObjectPlacement& placement = placementOf(problem.world, catalog, object);
-  problem.object_id = placement.id;
+  problem.object_id = placeObject(problem.world, catalog, object);
+  ObjectPlacement& placement = placementOf(problem.world, problem.object_id);
   const ProblemChecker checker(catalog, problem.world, placement, clearance_m);
   Random random = Random::stream(seed, "push problem");
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -100,6 +100,18 @@ void validateSteps(const Case& push_case, const std::string& where) {
 
 }  // namespace
 
+const char* toString(CaseOrigin origin) {
+  switch (origin) {
+    case CaseOrigin::kExplored:
+      return "explored";
+    case CaseOrigin::kDemonstrated:
+      return "demonstrated";
+    case CaseOrigin::kTransferred:
+      break;
+  }
+  return "transferred";
+}
+
 void validateCase(const Case& push_case, const std::string& where) {
   require(!push_case.object.empty(), where + ": object", "is empty; must name an object model");
   std::ostringstream period;
@@ -114,6 +126,10 @@ void validateCase(const Case& push_case, const std::string& where) {
   require(push_case.effective_count > 0.0 && push_case.effective_count <= kLargestCount,
           where + ": effective_count", count.str());
   require(push_case.observation_count >= 0, where + ": observation_count", "must not be negative");
+}
+
+bool isFor(const Case& push_case, const std::string& object, const std::string& robot) {
+  return push_case.object == object && push_case.robot == robot;
 }
 
 }  // namespace casepush

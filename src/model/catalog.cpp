@@ -77,4 +77,28 @@ std::vector<std::string> Catalog::names(const std::string& kind,
   return found;
 }
 
+std::string placeObject(WorldModel& world, const Catalog& catalog, const std::string& object) {
+  if (world.objects.empty()) {
+    throw InputError("world " + world.name, "holds no object; add one under `objects`");
+  }
+  if (object.empty()) {
+    return world.objects.front().id;
+  }
+  for (const ObjectPlacement& placement : world.objects) {
+    if (placement.id == object || placement.model == object) {
+      return placement.id;
+    }
+  }
+  const std::string wanted = catalog.object(object).name;
+  for (const ObjectPlacement& placement : world.objects) {
+    if (catalog.object(placement.model).name == wanted) {
+      return placement.id;
+    }
+  }
+  ObjectPlacement& first = world.objects.front();
+  first.model = object;
+  first.id = wanted + "_1";
+  return first.id;
+}
+
 }  // namespace casepush

@@ -177,14 +177,15 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
   }
   std::vector<Case> own;
   for (const Case& push_case : cases) {
-    if (push_case.object == request.object.model) {
+    if (isFor(push_case, request.object.model, data_->robot.name)) {
       own.push_back(push_case);
     }
   }
   PlanResult result;
   if (own.empty()) {
-    result = failed(PlanStatus::kNoCases,
-                    "there are no cases for \"" + request.object.model + "\"; learn some first");
+    result = failed(PlanStatus::kNoCases, "there are no cases of \"" + request.object.model +
+                                              "\" pushed by robot \"" + data_->robot.name +
+                                              "\"; learn some first");
   } else {
     try {
       for (const Case& push_case : own) {

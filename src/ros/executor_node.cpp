@@ -21,31 +21,14 @@ constexpr double kTickMissingS = 0.06;  // Wall time without odometry after whic
 constexpr double kStatePeriodS = 0.2;
 constexpr double kJumpBackS = 0.5;
 
-/// A trivial path if the robot all but stands at the goal, which a planner would call blocked.
-std::optional<RobotPath> pathIfThere(const Pose2& map_T_robot, const Pose2& goal) {
-  constexpr double kThereM = 0.05;
-  constexpr double kThereRad = 0.1;
-  if (distance(map_T_robot, goal) > kThereM ||
-      std::abs(yawDifference(map_T_robot, goal)) > kThereRad) {
-    return std::nullopt;
-  }
-  RobotPath path;
-  path.found = true;
-  path.waypoints = {map_T_robot, goal};
-  path.length_m = distance(map_T_robot, goal);
-  return path;
-}
-
-template <typename Result, typename GoalHandle>
-void reject(GoalHandle& goal, std::uint8_t status, const std::string& explanation) {
-  Result result;
-  result.status = status;
-  result.explanation = explanation;
-  goal.setRejected(result, explanation);
-  ROS_WARN("goal rejected: %s", explanation.c_str());
-}
-
 }  // namespace
+
+template <typename GoalHandle>
+void ExecutorNode::onCancel(GoalHandle goal) {
+  if (activity_ != nullptr && activity_->goalId() == goal.getGoalID().id) {
+    end(ActivityEnd::kCancelled, "");
+  }
+}
 
 ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle handle)
     : parameters_(std::move(parameters)),
@@ -154,143 +137,6 @@ std::string ExecutorNode::whatIsMissing() const {
     return std::string("the robot's pose is unknown (TF map -> base_link): ") + error.what();
   }
   return "";
-}
-
-std::vector<Case> ExecutorNode::casesOf(const std::string& model) const {
-  std::vector<Case> found;
-  std::copy_if(cases_.begin(), cases_.end(), std::back_inserter(found),
-               [&model](const Case& each) { return each.object == model; });
-  return found;
-}
-
-PushTaskGoal ExecutorNode::taskGoal(const PushObjectGoal& goal) const {
-  PushTaskGoal task;
-  task.object_id = goal.object_id;
-  task.map_T_goal = poseInMap(buffer_, goal.goal);
-  task.tolerance = goalTolerance(goal.position_tolerance, goal.yaw_tolerance);
-  if (!std::isfinite(goal.time_limit) || goal.time_limit < 0.0) {
-    throw InputError("goal: time_limit", "must be finite and not negative");
-  }
-  if (goal.time_limit > 0.0) {
-    task.time_limit_s = goal.time_limit;
-  }
-  task.adapt = goal.adapt;
-  task.seed = goal.seed;
-  return task;
-}
-
-void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
-  const PushObjectGoal& wanted = *goal.getGoal();
-  const TrackedObject* instance = parameters_.furnishing.instance(wanted.object_id);
-  if (activity_ != nullptr) {
-    return reject<PushObjectResult>(goal, PushObjectResult::BUSY, "busy: " + activity_->describe());
-  }
-  if (instance == nullptr) {
-    return reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL,
-                                    "unknown object '" + wanted.object_id + "'");
-  }
-  const std::string model = instance->model.name;
-  std::string missing = whatIsMissing();
-  if (missing.empty() && casesOf(model).empty()) {
-    missing = "there are no cases of " + model + " (topic cases); learn it first (learn_object)";
-  }
-  if (!missing.empty()) {
-    return reject<PushObjectResult>(goal, PushObjectResult::NOT_READY, missing);
-  }
-  try {
-    PushTaskServices services;
-    services.plans = &plans_;
-    services.checker = checker_.get();
-    // Keeps the checker alive, should a new map come during the task.
-    services.cases = [this, model, keep = checker_] { return casesOf(model); };
-    auto activity = std::make_unique<PushObjectActivity>(
-        goal, taskGoal(wanted), parameters_.furnishing.robot, std::move(services), parameters_.task,
-        [this](const PushReport& report, const ReportContext& context) {
-          publishReport(report, context);
-        });
-    goal.setAccepted();
-    begin(std::move(activity));
-  } catch (const InputError& error) {
-    reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL, error.what());
-  } catch (const tf2::TransformException& error) {
-    reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL, error.what());
-  }
-}
-
-ApproachPlanner ExecutorNode::approach(const std::string& object_id) const {
-  // The planner is kept alive by the lambda, should a new map come while it drives.
-  const auto plan = approachPlanner(*checker_, object_id);
-  return [plan, checker = checker_](const Observation& observation, const Pose2& goal,
-                                    double dock_direction_rad) {
-    const std::optional<RobotPath> there = pathIfThere(observation.map_T_robot, goal);
-    return there ? *there : plan(observation, goal, dock_direction_rad);
-  };
-}
-
-ExecutePush ExecutorNode::makePush(const ExecutePushGoal& goal) const {
-  const RobotModel& robot = parameters_.furnishing.robot;
-  if (goal.case_id == 0) {
-    return ExecutePush(goal.object_id, fromMessage(goal.configuration), robot,
-                       approach(goal.object_id), parameters_.task.push);
-  }
-  const auto found = std::find_if(cases_.begin(), cases_.end(),
-                                  [&goal](const Case& each) { return each.id == goal.case_id; });
-  if (found == cases_.end()) {
-    throw InputError("goal: case_id",
-                     "there is no case " + std::to_string(goal.case_id) + " (topic cases)");
-  }
-  return ExecutePush(goal.object_id, *found, robot, approach(goal.object_id),
-                     parameters_.task.push);
-}
-
-void ExecutorNode::onExecutePush(ExecutePushServer::GoalHandle goal) {
-  const ExecutePushGoal& wanted = *goal.getGoal();
-  if (activity_ != nullptr) {
-    return reject<ExecutePushResult>(goal, ExecutePushResult::BUSY,
-                                     "busy: " + activity_->describe());
-  }
-  if (parameters_.furnishing.instance(wanted.object_id) == nullptr) {
-    return reject<ExecutePushResult>(goal, ExecutePushResult::INVALID_GOAL,
-                                     "unknown object '" + wanted.object_id + "'");
-  }
-  std::string missing = whatIsMissing();
-  const bool seen = std::any_of(objects_.begin(), objects_.end(), [&wanted](const auto& each) {
-    return each.id == wanted.object_id;
-  });
-  if (missing.empty() && !seen) {
-    missing = wanted.object_id + " has not been seen (topic objects)";
-  }
-  if (!missing.empty()) {
-    return reject<ExecutePushResult>(goal, ExecutePushResult::NOT_READY, missing);
-  }
-  try {
-    auto activity = std::make_unique<ExecutePushActivity>(
-        goal, makePush(wanted), [this](const PushReport& report, const ReportContext& context) {
-          publishReport(report, context);
-        });
-    goal.setAccepted();
-    begin(std::move(activity));
-  } catch (const InputError& error) {
-    reject<ExecutePushResult>(goal, ExecutePushResult::INVALID_GOAL, error.what());
-  }
-}
-
-template <typename GoalHandle>
-void ExecutorNode::onCancel(GoalHandle goal) {
-  if (activity_ != nullptr && activity_->goalId() == goal.getGoalID().id) {
-    end(ActivityEnd::kCancelled, "");
-  }
-}
-
-bool ExecutorNode::onStop(std_srvs::Trigger::Request& /*request*/,
-                          std_srvs::Trigger::Response& response) {
-  response.success = true;
-  response.message = activity_ == nullptr ? "nothing was going on" : "stopped";
-  if (activity_ != nullptr) {
-    end(ActivityEnd::kStopped, "stopped by the service stop");
-  }
-  command_.publish(geometry_msgs::Twist());
-  return true;
 }
 
 void ExecutorNode::begin(std::unique_ptr<Activity> activity) {

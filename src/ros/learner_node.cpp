@@ -27,7 +27,6 @@ constexpr double kSeenPatienceS = 10.0;                // Wall time.
 constexpr std::chrono::seconds kExecutorPatience(20);  // Wall time.
 constexpr milliseconds kLook(20);
 constexpr int kRefusals = 5;  // In a row by the executor, before learning gives up.
-constexpr double kMarkersMoveM = 0.05;
 
 double secondsSince(SteadyClock::time_point start) {
   return std::chrono::duration<double>(SteadyClock::now() - start).count();
@@ -156,8 +155,7 @@ void LearnerNode::learn(const LearnObjectGoal& goal, Run& run) {
     store(run, *trial, *report);
   }
   if (run.exploration->gaveUp()) {
-    run.fail(LearnObjectResult::GAVE_UP,
-             "gave up after " + std::to_string(run.exploration->discarded()) + " useless pushes");
+    run.fail(LearnObjectResult::GAVE_UP, run.exploration->explanation());
     return;
   }
   run.result.status = LearnObjectResult::DONE;
@@ -340,87 +338,6 @@ void LearnerNode::publishProgress(const Run& run, const Exploration::Trial& tria
   feedback.time_left = done_now > 0 ? secondsSince(run.start) / done_now * left : -1.0;
   feedback.phase = run.teleport ? "reset" : "approach";
   server_.publishFeedback(feedback);
-}
-
-void LearnerNode::onReport(const ExecutedPush& message) {
-  if (!message.adapted || message.case_id == 0) {
-    return;
-  }
-  try {
-    adaptBy(fromMessage(message));
-    publishCases();
-  } catch (const InputError& error) {
-    ROS_ERROR("push report %u is not learnt from: %s", message.sequence, error.what());
-  }
-}
-
-void LearnerNode::adaptBy(const PushReport& report) {
-  const std::lock_guard<std::mutex> lock(base_mutex_);
-  const Case known = base_.get(report.case_id);
-  const double weight =
-      adaptationWeight(report.test.p_value, parameters_.adaptation_k, known.effective_count);
-  base_.adapt(report.case_id, report.recorded.start_outcome.mean, weight, parameters_.floor);
-}
-
-bool LearnerNode::onExport(ExportCases::Request& request, ExportCases::Response& response) {
-  const std::lock_guard<std::mutex> lock(base_mutex_);
-  try {
-    base_.exportYaml(request.file);
-    response.count = static_cast<std::uint32_t>(base_.cases().size());
-    response.success = true;
-  } catch (const InputError& error) {
-    response.message = error.what();
-  }
-  return true;
-}
-
-bool LearnerNode::onImport(ImportCases::Request& request, ImportCases::Response& response) {
-  try {
-    const std::lock_guard<std::mutex> lock(base_mutex_);
-    response.count = static_cast<std::uint32_t>(base_.importYaml(request.file));
-    response.success = true;
-  } catch (const InputError& error) {
-    response.message = error.what();
-  }
-  publishCases();
-  return true;
-}
-
-void LearnerNode::publishCases() {
-  {
-    const std::lock_guard<std::mutex> lock(base_mutex_);
-    cases_.publish(toMessage(base_.cases(), ros::Time::now().toSec()));
-  }
-  publishMarkers();
-}
-
-void LearnerNode::publishMarkersIfMoved() {
-  std::unique_lock<std::mutex> lock(state_mutex_);
-  const std::optional<ObjectState> object = objects_.find(shown_object_);
-  const bool moved = object && distance(object->map_T_object, shown_at_) > kMarkersMoveM;
-  lock.unlock();
-  if (moved) {
-    publishMarkers();
-  }
-}
-
-void LearnerNode::publishMarkers() {
-  std::unique_lock<std::mutex> lock(state_mutex_);
-  const std::optional<ObjectState> object = objects_.find(shown_object_);
-  if (!object) {
-    return;
-  }
-  shown_at_ = object->map_T_object;
-  lock.unlock();
-  const std::lock_guard<std::mutex> base_lock(base_mutex_);
-  markers_.publish(caseMarkers(base_.cases(object->model), object->map_T_object));
-}
-
-void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  status.summary(diagnostic_msgs::DiagnosticStatus::OK, server_.isActive() ? "learning" : "idle");
-  status.add("case base", parameters_.case_base);
-  const std::lock_guard<std::mutex> lock(base_mutex_);
-  status.add("cases", base_.cases().size());
 }
 
 }  // namespace casepush

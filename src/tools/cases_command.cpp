@@ -1,6 +1,8 @@
+#include <filesystem>
 #include <memory>
 
 #include "casepush/cases/case_base.h"
+#include "casepush/common/input_error.h"
 #include "command.h"
 
 namespace casepush {
@@ -13,18 +15,6 @@ struct CasesArguments {
   std::string file;
 };
 
-const char* originName(CaseOrigin origin) {
-  switch (origin) {
-    case CaseOrigin::kExplored:
-      return "explored";
-    case CaseOrigin::kDemonstrated:
-      return "demonstrated";
-    case CaseOrigin::kTransferred:
-      return "transferred";
-  }
-  return "unknown";
-}
-
 int list(const CasesArguments& arguments) {
   const CaseBase case_base(arguments.case_base, CaseBase::Access::kReadOnly);
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
@@ -34,7 +24,7 @@ int list(const CasesArguments& arguments) {
     cases.push_back({{"id", push_case.id},
                      {"object", push_case.object},
                      {"robot", push_case.robot},
-                     {"origin", originName(push_case.origin)},
+                     {"origin", toString(push_case.origin)},
                      {"push_duration_s", push_case.pushDurationS()},
                      {"outcome", {outcome.mean.x(), outcome.mean.y(), outcome.mean.yaw()}},
                      {"sigma", {sigma.x(), sigma.y(), sigma.z()}},
@@ -70,8 +60,16 @@ int exportCases(const CasesArguments& arguments) {
 }
 
 int importCases(const CasesArguments& arguments) {
-  CaseBase case_base(arguments.case_base, CaseBase::Access::kCreate);
-  const int added = case_base.importYaml(arguments.file);
+  const bool existed = std::filesystem::exists(arguments.case_base);
+  int added = 0;
+  try {
+    added = CaseBase(arguments.case_base, CaseBase::Access::kCreate).importYaml(arguments.file);
+  } catch (const InputError&) {
+    if (!existed) {
+      std::filesystem::remove(arguments.case_base);  // Nothing half-made is left behind.
+    }
+    throw;
+  }
   printResult({{"success", true}, {"imported", added}, {"case_base", arguments.case_base}},
               arguments.json);
   return kExitSuccess;
@@ -86,7 +84,9 @@ void addCasesCommand(CLI::App& app, Run& run) {
   const auto add = [&](const std::string& name, const std::string& description,
                        int (*action)(const CasesArguments&)) {
     CLI::App* command = cases->add_subcommand(name, description);
-    command->add_option("--case-base", arguments->case_base, "SQLite file")->required();
+    command->add_option("--case-base", arguments->case_base, "SQLite file")
+        ->required()
+        ->check(notEmpty());
     command->add_flag("--json", arguments->json, "Print one JSON object on stdout");
     command->callback(
         [arguments, action, &run] { run = [arguments, action] { return action(*arguments); }; });

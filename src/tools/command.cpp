@@ -2,10 +2,11 @@
 
 #include <unistd.h>
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <iostream>
-#include <limits>
+#include <sstream>
 
 namespace casepush {
 namespace {
@@ -16,10 +17,33 @@ double steadySeconds() {
 
 }  // namespace
 
+CLI::Validator finiteIn(double low, double high) {
+  std::ostringstream range;
+  range << "[" << low << " - " << high << "]";
+  return CLI::Validator(
+      [low, high, bounds = range.str()](const std::string& text) {
+        double value = 0.0;
+        const bool fits = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+        return fits ? std::string() : text + " is not a number in " + bounds;
+      },
+      "FLOAT in " + range.str());
+}
+
+CLI::Validator notEmpty() {
+  return CLI::Validator(
+      [](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, "");
+}
+
 void addCommonOptions(CLI::App& command, CommonOptions& options) {
-  command.add_option("--seed", options.seed, "Fixes everything random")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
-      ->capture_default_str();
+  const auto read = [&options](const std::string& text) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), options.seed);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      throw CLI::ValidationError("--seed", text + " is not a whole number in [0, 2^64 - 1]");
+    }
+  };
+  command.add_option_function<std::string>("--seed", read, "Fixes everything random")
+      ->type_name("UINT")
+      ->default_str("1");
   command.add_flag("--json", options.json, "Print one JSON object on stdout; logs go to stderr");
 }
 

@@ -15,7 +15,7 @@ constexpr int kExitBadInput = 2;
 
 /// Options that every subcommand has.
 struct CommonOptions {
-  std::int64_t seed = 1;
+  std::uint64_t seed = 1;
   bool json = false;
 };
 
@@ -26,6 +26,10 @@ void addLearnCommand(CLI::App& app, Run& run);
 void addPlanCommand(CLI::App& app, Run& run);
 void addPushCommand(CLI::App& app, Run& run);
 void addCasesCommand(CLI::App& app, Run& run);
+
+/// A finite number in [low, high]: unlike CLI::Range, no NaN.
+CLI::Validator finiteIn(double low, double high);
+CLI::Validator notEmpty();
 
 /// --seed and --json.
 void addCommonOptions(CLI::App& command, CommonOptions& options);

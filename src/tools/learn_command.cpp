@@ -46,7 +46,9 @@ int learn(const LearnArguments& arguments) {
   options.exploration.seed = arguments.common.seed;
   options.lab.simulator.seed = arguments.common.seed;
   options.exploration.validate();
+  // Everything is checked before a case base is made.
   const std::string name = catalog.object(arguments.object).name;
+  catalog.robot(arguments.robot);
   CaseBase case_base(arguments.case_base, CaseBase::Access::kCreate);
   ProgressLine line;
   const LearningResult result = learnInLab(catalog, arguments.object, arguments.robot, case_base,

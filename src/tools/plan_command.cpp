@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "casepush/common/input_error.h"
 #include "command.h"
 #include "task_arguments.h"
 
@@ -39,6 +40,20 @@ std::map<std::string, ObjectModel> loadModels(const Task& task) {
   return models;
 }
 
+/// Wrong from the start, in contrast to a search without success.
+bool isBadRequest(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kInvalidRequest:
+    case PlanStatus::kNoCases:
+    case PlanStatus::kStartInCollision:
+    case PlanStatus::kGoalInCollision:
+    case PlanStatus::kGoalOutsideMap:
+      return true;
+    default:
+      return false;
+  }
+}
+
 int plan(const PlanArguments& arguments) {
   const Stopwatch watch;
   const Task task = prepareTask(arguments.task);
@@ -51,6 +66,9 @@ int plan(const PlanArguments& arguments) {
                             loadModels(task), options);
   const PlanRequest request = makeRequest(task, arguments);
   const PlanResult result = planner.plan(request, task.cases);
+  if (isBadRequest(result.status)) {
+    throw InputError("plan", result.explanation);
+  }
   nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
   for (const PlannedPush& push : result.plan.pushes) {
     pushes.push_back({{"case", push.case_id},
@@ -81,7 +99,7 @@ void addPlanCommand(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("plan", "Plan the pushes that bring an object to a goal");
   addTaskOptions(*command, arguments->task);
   command->add_option("--deadline", arguments->deadline_s, "Wall seconds for planning")
-      ->check(CLI::Range(0.001, 3600.0))
+      ->check(finiteIn(0.001, 3600.0))
       ->capture_default_str();
   command->add_flag("--paper", arguments->paper,
                     "Similarity of the paper's eq. 3 and its goal bias of 0.95");

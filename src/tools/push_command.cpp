@@ -4,6 +4,7 @@
 #include <string>
 #include <tuple>
 
+#include "casepush/common/input_error.h"
 #include "command.h"
 #include "task_arguments.h"
 
@@ -56,6 +57,11 @@ class PushProgress {
 };
 
 nlohmann::ordered_json pushJson(const PushReport& report) {
+  if (!isObservation(report)) {
+    return {{"case", report.case_id},
+            {"outcome", toString(report.outcome)},
+            {"explanation", report.explanation}};
+  }
   return {{"case", report.case_id},
           {"outcome", toString(report.outcome)},
           {"expected",
@@ -80,6 +86,9 @@ int push(const PushArguments& arguments) {
   const PushRunResult result =
       runPushTask(task.catalog, task.problem, task.cases, task.map, options,
                   [&](const PushTask& now) { progress.update(now); });
+  if (result.status == PushTaskStatus::kInvalidGoal) {
+    throw InputError("push", result.explanation);
+  }
   nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
   for (const PushReport& report : result.reports) {
     pushes.push_back(pushJson(report));
@@ -123,7 +132,7 @@ void addPushCommand(CLI::App& app, Run& run) {
   command->add_flag("--no-adapt", arguments->no_adapt,
                     "Do not adapt the cases while pushing (the file is never changed)");
   command->add_option("--time-limit", arguments->time_limit_s, "Simulated seconds for the task")
-      ->check(CLI::Range(1.0, 36000.0))
+      ->check(finiteIn(1.0, 36000.0))
       ->capture_default_str();
   command->callback([arguments, &run] { run = [arguments] { return push(*arguments); }; });
 }

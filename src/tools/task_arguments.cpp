@@ -29,13 +29,16 @@ Pose2 poseFrom(const std::vector<double>& numbers, const std::string& option,
 
 void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
   addCommonOptions(command, arguments.common);
-  command.add_option("--object", arguments.object, "Object by name or URDF file")->required();
+  command.add_option("--object", arguments.object, "Object by name or URDF file")
+      ->required()
+      ->check(notEmpty());
   command.add_option("--world", arguments.world, "World by name or YAML file")
       ->capture_default_str();
   command.add_option("--map", arguments.map,
                      "OctoMap (.bt or .ot) that the planner uses; default: a survey of the world");
   command.add_option("--case-base", arguments.case_base, "SQLite file with the object's cases")
-      ->required();
+      ->required()
+      ->check(notEmpty());
   command.add_option("--start", arguments.start, "Object's start: x_m y_m yaw_deg in the map")
       ->expected(3);
   command
@@ -49,9 +52,15 @@ Task prepareTask(const TaskArguments& arguments) {
   Task task{Catalog::standard(), {}, {}, nullptr};
   const std::string name = task.catalog.object(arguments.object).name;
   const WorldModel world = task.catalog.world(arguments.world);
-  task.cases = CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name);
+  const std::string robot = task.catalog.robot(world.robot).name;
+  for (const Case& push_case :
+       CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name)) {
+    if (isFor(push_case, name, robot)) {
+      task.cases.push_back(push_case);
+    }
+  }
   if (task.cases.empty()) {
-    throw InputError(arguments.case_base, "holds no case of " + name +
+    throw InputError(arguments.case_base, "holds no case of " + name + " pushed by " + robot +
                                               "; run casepush learn --object " + name +
                                               " --case-base " + arguments.case_base);
   }

@@ -142,6 +142,9 @@ def bad_inputs(tmp_path, case_base):
         (with_cases + ["--goal", "900", "1", "0"], ["--goal", "outside"]),
         (with_cases + ["--start", "3", "3", "0"], ["--goal"]),
         (with_cases + ["--seed", "-1"], ["--seed"]),
+        (with_cases + ["--seed", "99999999999999999999"], ["--seed"]),
+        (with_cases + ["--deadline", "nan"], ["--deadline"]),
+        (plan + ["--case-base", ""], ["--case-base"]),
         (["cases", "import", "--case-base", tmp_path / "new.db", nan_yaml], ["nan.yaml", "period"]),
         (["learn", "--object", "office_chair", "--case-base", tmp_path / "l.db", "--cases", "0"],
          ["cases"]),
@@ -158,6 +161,8 @@ def test_bad_input_is_one_clear_line_and_leaves_files_alone(tmp_path, case_base)
         assert len(lines) == 1, (arguments, process.stderr)
         for word in words:
             assert word in lines[0], (arguments, word, lines[0])
+        known = set(before) | {file for file in tmp_path.iterdir() if file.is_dir()}
+        assert set(tmp_path.iterdir()) == known, (arguments, "left something behind")
         for file, content in before.items():
             assert file.read_bytes() == content, (arguments, file)
 
@@ -169,8 +174,8 @@ def test_bad_input_with_json_still_gives_one_object():
     assert result["success"] is False and "sofa" in result["error"]
 
 
-def test_goal_in_a_wall_is_a_failed_task_with_a_reason(case_base):
+def test_goal_in_a_wall_is_refused_with_a_reason(case_base):
     process = casepush("plan", "--object", "office_chair", "--case-base", case_base, "--goal",
                        "0.05", "5", "0", "--json")
-    assert process.returncode == 1
-    assert result_of(process)["status"] == "goal in collision"
+    assert process.returncode == 2
+    assert "goal (0.05, 5, 0 deg)" in result_of(process)["error"]

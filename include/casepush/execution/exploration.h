@@ -65,7 +65,7 @@ class Exploration {
   Exploration(ObjectModel object, RobotModel robot, ExplorationOptions options);
   ~Exploration();
 
-  /// Continue from cases learnt before (a resumed run). Cases short of practices are practised
+  /// Continue from cases learnt before (a resumed run); those of other objects or robots are ignored. Cases short of practices are practised
   /// first.
   void resume(const std::vector<Case>& cases);
 
@@ -85,7 +85,8 @@ class Exploration {
   enum class Verdict {
     kStoreCase,  ///< Store report.recorded as a new case and call stored(id).
     kObserve,    ///< Add report's outcome to the case.
-    kDropCase,   ///< Remove the case: too uncertain. It will be replaced.
+    kDropCase,   ///< Remove the case, which this run found: too uncertain, or it keeps failing. It
+                 ///< will be replaced. Cases of earlier runs are never dropped.
     kDiscard,    ///< Useless or failed push; nothing to store.
   };
   /// @param updated  For practices: the case with this observation already included; nothing if the
@@ -95,6 +96,7 @@ class Exploration {
 
   bool finished() const;
   bool gaveUp() const;
+  std::string explanation() const;     ///< Why it gave up, and what to do; for a person.
   int discarded() const;               ///< Pushes without use so far.
   int dropped() const;                 ///< Cases replaced so far.
   ExplorationQuality quality() const;  ///< Of the cases known so far.

@@ -68,6 +68,7 @@ class ClosedLoop {
   std::vector<std::string> collision_names_;
   int collisions_ = 0;
   double next_tick_s_ = 0.0;
+  double placed_s_ = 0.0;  ///< Time of the last teleport.
 };
 
 }  // namespace casepush

@@ -35,9 +35,8 @@ struct PushProblem {
   Pose2 map_T_goal;
 };
 
-/// A problem from a world file: the object of the given model at its place there.
-/// If the world holds no such object, the model takes the place of the first one.
-/// @throws InputError if the world has no object at all.
+/// A problem from a world file: the object at its place there, see placeObject().
+/// @throws InputError from placeObject().
 PushProblem problemFromWorld(const Catalog& catalog, const WorldModel& world,
                              const std::string& object, const Pose2& map_T_goal);
 

@@ -18,6 +18,7 @@ struct CaseStep {
 };
 
 enum class CaseOrigin { kExplored, kDemonstrated, kTransferred };
+const char* toString(CaseOrigin origin);
 
 /// A probabilistic case: a push that was tried, and the distribution of where the object rests.
 ///
@@ -49,5 +50,9 @@ inline constexpr double kLargestCaseCoordinate_m = 100.0;
 ///   period outside of [0.001, 10] s; push_steps out of range; a matrix that is no covariance or a
 ///   standard deviation beyond 100 (m, rad); an effective count outside of (0, 1e9].
 void validateCase(const Case& push_case, const std::string& where);
+
+/// True if the case can be replayed by `robot` on `object` (names of models): what another robot's
+/// shape did to an object says little about this one's.
+bool isFor(const Case& push_case, const std::string& object, const std::string& robot);
 
 }  // namespace casepush

@@ -38,4 +38,11 @@ class Catalog {
   std::filesystem::path share_;
 };
 
+/// Sees to it that a world holds an object, and returns the id of that instance.
+///
+/// `object` is an id in the world, or an object by name or file. If the world holds none of that
+/// kind, it takes the place of the first object, as `<name>_1`. Empty: the first object of the world.
+/// @throws InputError if the world holds no object, or the object is unknown or bad.
+std::string placeObject(WorldModel& world, const Catalog& catalog, const std::string& object);
+
 }  // namespace casepush

@@ -51,7 +51,7 @@ class PushPlanner {
               std::map<std::string, ObjectModel> objects, PushPlannerOptions options);
   ~PushPlanner();
 
-  /// @param cases  Of the request's object; others are ignored.
+  /// @param cases  Those of the request's object and this robot count; others are ignored.
   /// @param stop   Asked often; planning ends within 20 ms once it says true.
   PlanResult plan(const PlanRequest& request, const std::vector<Case>& cases,
                   const std::function<bool()>& stop = {}) const;

@@ -259,6 +259,67 @@ TEST(Exploration, resumesWhereItStopped) {
   EXPECT_FALSE(done.next());
 }
 
+PushReport lostReport() {
+  PushReport report;
+  report.outcome = PushOutcome::kObjectLost;
+  return report;
+}
+
+TEST(Exploration, aBlindRobotStopsWithoutDroppingAnything) {
+  Learner learner(options(2, 3));
+  learner.all(100);
+  ASSERT_EQ(learner.cases.size(), 2U);
+  Exploration later(test::fakeObject(), test::fakeRobot(), options(2, 10));
+  std::vector<Case> known;
+  for (const auto& [id, push_case] : learner.cases) {
+    known.push_back(push_case);
+  }
+  later.resume(known);
+  int pushes = 0;
+  while (later.next()) {
+    ASSERT_EQ(later.judge(lostReport(), std::nullopt), Verdict::kDiscard);
+    ASSERT_LT(++pushes, 50);
+  }
+  EXPECT_TRUE(later.gaveUp());
+  EXPECT_EQ(later.dropped(), 0);
+  EXPECT_EQ(later.quality().cases, 2);
+  EXPECT_NE(later.explanation().find("out of sight"), std::string::npos);
+}
+
+TEST(Exploration, losingSightIsNoFaultOfANewCase) {
+  Learner learner(options(1, 20));
+  learner.once(*learner.exploration.next());
+  while (learner.cases.empty()) {
+    learner.once(*learner.exploration.next());
+  }
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(learner.exploration.judge(lostReport(), std::nullopt), Verdict::kDiscard);
+  }
+  EXPECT_EQ(learner.exploration.dropped(), 0);
+}
+
+TEST(Exploration, casesOfEarlierRunsAreSetAsideInsteadOfDropped) {
+  Learner learner(options(1, 3));
+  learner.all(100);
+  Exploration later(test::fakeObject(), test::fakeRobot(), options(1, 10));
+  later.resume({learner.cases.begin()->second});
+  for (int i = 0; i < 20 && later.next(); ++i) {
+    ASSERT_EQ(later.judge(failedReport(), std::nullopt), Verdict::kDiscard);
+  }
+  EXPECT_TRUE(later.finished());
+  EXPECT_EQ(later.dropped(), 0);
+}
+
+TEST(Exploration, ignoresCasesOfOtherRobots) {
+  Learner learner(options(1, 3));
+  learner.all(100);
+  Case foreign = learner.cases.begin()->second;
+  foreign.robot = "another";
+  Exploration later(test::fakeObject(), test::fakeRobot(), options(1, 3));
+  later.resume({foreign});
+  EXPECT_EQ(later.quality().cases, 0);
+}
+
 TEST(Exploration, givesUpAfterTooManyFailures) {
   ExplorationOptions few = options(14, 20);
   few.max_failures = 7;

@@ -68,5 +68,32 @@ TEST_F(CatalogTest, standardFollowsTheEnvironmentAndFallsBackToThePackage) {
   ASSERT_EQ(setenv("CASEPUSH_SHARE", before.c_str(), 1), 0);
 }
 
+TEST(PlaceObject, findsInstancesAndKindsAndReplacesTheFirstOtherwise) {
+  const Catalog catalog = Catalog::standard();
+  WorldModel world = catalog.world("office");
+  const std::string first = world.objects.front().id;
+  EXPECT_EQ(placeObject(world, catalog, ""), first);
+  EXPECT_EQ(placeObject(world, catalog, first), first);
+  EXPECT_EQ(placeObject(world, catalog, "office_chair"), first);
+  TemporaryFolder folder;
+  const auto objects = catalog.share() / "config" / "objects";
+  for (const char* extension : {".urdf", ".yaml"}) {
+    std::filesystem::copy_file(objects / (std::string("office_chair") + extension),
+                               folder.path() / (std::string("stool") + extension));
+  }
+  const std::string stool = (folder.path() / "stool.urdf").string();
+  EXPECT_EQ(placeObject(world, catalog, stool), "stool_1");
+  EXPECT_EQ(world.objects.front().model, stool);
+  EXPECT_EQ(placeObject(world, catalog, stool), "stool_1");
+}
+
+TEST(PlaceObject, refusesWorldsWithoutObjectsAndUnknownObjects) {
+  const Catalog catalog = Catalog::standard();
+  WorldModel world = catalog.world("office");
+  EXPECT_THROW(placeObject(world, catalog, "harp"), InputError);
+  world.objects.clear();
+  EXPECT_THROW(placeObject(world, catalog, "office_chair"), InputError);
+}
+
 }  // namespace
 }  // namespace casepush

@@ -290,7 +290,8 @@ TEST(PushPlanner, needsCasesOfTheObject) {
   other.object = "table";
   const PlanResult result = planner->plan(requestFor(kStart, kGoal), syntheticPushes(14, 7, other));
   EXPECT_EQ(result.status, PlanStatus::kNoCases);
-  EXPECT_EQ(result.explanation, "there are no cases for \"chair\"; learn some first");
+  EXPECT_EQ(result.explanation,
+            "there are no cases of \"chair\" pushed by robot \"robot\"; learn some first");
 }
 
 TEST(PushPlanner, refusesADamagedCase) {

@@ -1,0 +1,102 @@
+// How LearnerNode keeps the case base and shows it.
+#include <casepush/PushCaseArray.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "casepush/common/input_error.h"
+#include "casepush/ros/conversions.h"
+#include "casepush/ros/learner_node.h"
+#include "casepush/ros/markers.h"
+#include "casepush/ros/names.h"
+#include "casepush/ros/push_conversions.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kMarkersMoveM = 0.05;
+
+}  // namespace
+
+void LearnerNode::onReport(const ExecutedPush& message) {
+  if (!message.adapted || message.case_id == 0) {
+    return;
+  }
+  try {
+    adaptBy(fromMessage(message));
+    publishCases();
+  } catch (const InputError& error) {
+    ROS_ERROR("push report %u is not learnt from: %s", message.sequence, error.what());
+  }
+}
+
+void LearnerNode::adaptBy(const PushReport& report) {
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  const Case known = base_.get(report.case_id);
+  const double weight =
+      adaptationWeight(report.test.p_value, parameters_.adaptation_k, known.effective_count);
+  base_.adapt(report.case_id, report.recorded.start_outcome.mean, weight, parameters_.floor);
+}
+
+bool LearnerNode::onExport(ExportCases::Request& request, ExportCases::Response& response) {
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  try {
+    base_.exportYaml(request.file);
+    response.count = static_cast<std::uint32_t>(base_.cases().size());
+    response.success = true;
+  } catch (const InputError& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+bool LearnerNode::onImport(ImportCases::Request& request, ImportCases::Response& response) {
+  try {
+    const std::lock_guard<std::mutex> lock(base_mutex_);
+    response.count = static_cast<std::uint32_t>(base_.importYaml(request.file));
+    response.success = true;
+  } catch (const InputError& error) {
+    response.message = error.what();
+  }
+  publishCases();
+  return true;
+}
+
+void LearnerNode::publishCases() {
+  {
+    const std::lock_guard<std::mutex> lock(base_mutex_);
+    cases_.publish(toMessage(base_.cases(), ros::Time::now().toSec()));
+  }
+  publishMarkers();
+}
+
+void LearnerNode::publishMarkersIfMoved() {
+  std::unique_lock<std::mutex> lock(state_mutex_);
+  const std::optional<ObjectState> object = objects_.find(shown_object_);
+  const bool moved = object && distance(object->map_T_object, shown_at_) > kMarkersMoveM;
+  lock.unlock();
+  if (moved) {
+    publishMarkers();
+  }
+}
+
+void LearnerNode::publishMarkers() {
+  std::unique_lock<std::mutex> lock(state_mutex_);
+  const std::optional<ObjectState> object = objects_.find(shown_object_);
+  if (!object) {
+    return;
+  }
+  shown_at_ = object->map_T_object;
+  lock.unlock();
+  const std::lock_guard<std::mutex> base_lock(base_mutex_);
+  markers_.publish(caseMarkers(base_.cases(object->model), object->map_T_object));
+}
+
+void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, server_.isActive() ? "learning" : "idle");
+  status.add("case base", parameters_.case_base);
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  status.add("cases", base_.cases().size());
+}
+
+}  // namespace casepush
