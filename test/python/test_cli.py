@@ -178,4 +178,4 @@ def test_goal_in_a_wall_is_refused_with_a_reason(case_base):
     process = casepush("plan", "--object", "office_chair", "--case-base", case_base, "--goal",
                        "0.05", "5", "0", "--json")
     assert process.returncode == 2
-    assert "goal (0.05, 5, 0 deg)" in result_of(process)["error"]
+    assert "goal (0.05, 5.00, 0 deg)" in result_of(process)["error"]
