@@ -15,7 +15,8 @@ constexpr double kLargestCoordinate_m = 1000.0;
 /// Reads one world; every name in it (boxes, objects, the robot) is taken once.
 class WorldReader {
  public:
-  explicit WorldReader(const std::filesystem::path& file) : reader_(YamlReader::fromFile(file)) {
+  explicit WorldReader(const std::filesystem::path& file)
+      : reader_(YamlReader::fromFile(file)), folder_(file.parent_path()) {
     world_.name = file.stem().string();
     names_.insert("robot");
   }
@@ -29,6 +30,9 @@ class WorldReader {
     }
     for (YamlReader& entry : reader_.children("boxes")) {
       readBox(entry);
+    }
+    if (reader_.has("static_map")) {
+      readStaticMap();
     }
     for (YamlReader& entry : reader_.children("objects")) {
       readObject(entry);
@@ -74,6 +78,16 @@ class WorldReader {
     world_.boxes.push_back(std::move(box));
   }
 
+  /// A relative path starts at the world's own folder.
+  void readStaticMap() {
+    const std::filesystem::path file = reader_.text("static_map");
+    if (file.extension() != ".bt" && file.extension() != ".ot") {
+      throw InputError(reader_.where("static_map"),
+                       "is '" + file.string() + "'; must be an OctoMap file, .bt or .ot");
+    }
+    world_.static_map = folder_ / file;
+  }
+
   void readObject(YamlReader& reader) {
     ObjectPlacement object;
     object.id = takeName(reader, "id");
@@ -111,6 +125,7 @@ class WorldReader {
   }
 
   YamlReader reader_;
+  std::filesystem::path folder_;
   WorldModel world_;
   std::set<std::string> names_;
 };

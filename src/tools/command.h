@@ -26,6 +26,7 @@ void addLearnCommand(CLI::App& app, Run& run);
 void addPlanCommand(CLI::App& app, Run& run);
 void addPushCommand(CLI::App& app, Run& run);
 void addCasesCommand(CLI::App& app, Run& run);
+void addWorldCommand(CLI::App& app, Run& run);
 
 /// --seed and --json.
 void addCommonOptions(CLI::App& command, CommonOptions& options);

@@ -4,6 +4,7 @@
 
 #include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
+#include "casepush/world/static_map.h"
 
 namespace casepush {
 namespace {
@@ -48,7 +49,7 @@ void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
 Task prepareTask(const TaskArguments& arguments) {
   Task task{Catalog::standard(), {}, {}, nullptr};
   const std::string name = task.catalog.object(arguments.object).name;
-  const WorldModel world = task.catalog.world(arguments.world);
+  const WorldModel world = loadWorld(task.catalog, arguments.world);
   task.cases = CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name);
   if (task.cases.empty()) {
     throw InputError(arguments.case_base, "holds no case of " + name +

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "casepush/common/input_error.h"
+#include "casepush/common/check.h"
 #include "casepush/world/map.h"
 #include "casepush/world/shadow.h"
 #include "map_stream.h"
@@ -76,6 +76,7 @@ void addFloorRim(const WorldModel& world, double resolution_m,
 
 std::vector<Eigen::Vector3f> surveyPoints(const WorldModel& world, double resolution_m) {
   checkResolution(resolution_m, "map survey");
+  CASEPUSH_CHECK(!world.static_map, "world " << world.name << " lacks its static map");
   std::vector<Eigen::Vector3f> points;
   addFloorRim(world, resolution_m, &points);
   for (const StaticBox& box : world.boxes) addBox(box, resolution_m, &points);
