@@ -116,7 +116,7 @@ class GuaranteedRooms : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(GuaranteedRooms, startAndGoalAreFreeAndConnected) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     check(generateRoom(catalog_, roomFor(GetParam(), seed, 0.12)));
   }
