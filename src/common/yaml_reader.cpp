@@ -192,6 +192,25 @@ std::vector<double> YamlReader::numbers(const std::string& key, int count) {
   return values;
 }
 
+std::vector<std::string> YamlReader::texts(const std::string& key) {
+  const YAML::Node node = state_->get(key);
+  std::vector<std::string> values;
+  if (!node.IsDefined()) {
+    return values;
+  }
+  if (!node.IsSequence()) {
+    throw InputError(where(key), "must be a list of texts");
+  }
+  for (const YAML::Node& element : node) {
+    const std::string value = element.IsScalar() ? element.Scalar() : "";
+    if (value.empty() || std::any_of(value.begin(), value.end(), isControl)) {
+      throw InputError(where(key), "must be a list of non-empty texts on one line each");
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
 YamlReader YamlReader::child(const std::string& key) {
   std::optional<YamlReader> reader = optionalChild(key);
   if (!reader) {

@@ -1,5 +1,6 @@
 #include "casepush/model/object_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kFloorTolerance_m = 0.01;
 constexpr int kLargestTagId = 586;  // of the family tag36h11
+constexpr double kUpright = 0.999;  // cosine of about 2.5 degrees
 
 std::vector<TagMount> readTags(YamlReader& reader) {
   std::vector<TagMount> tags;
@@ -32,6 +34,23 @@ std::vector<TagMount> readTags(YamlReader& reader) {
     throw InputError(reader.where("tags"), "must list at least one tag");
   }
   return tags;
+}
+
+/// A locked swivel is a rigid joint: its wheel trails along the direction of zero joint angle.
+void lockSwivels(YamlReader& reader, Mechanism* mechanism) {
+  for (const std::string& name : reader.texts("locked_swivels")) {
+    const auto joint = std::find_if(mechanism->joints.begin(), mechanism->joints.end(),
+                                    [&](const Joint& candidate) { return candidate.name == name; });
+    const bool found = joint != mechanism->joints.end();
+    const int link = static_cast<int>(joint - mechanism->joints.begin()) + 1;
+    if (!found || joint->type != JointType::kContinuous ||
+        std::abs((mechanism->root_T_link(link).linear() * joint->axis).z()) < kUpright) {
+      throw InputError(
+          reader.where("locked_swivels"),
+          "'" + name + "' is no swivel; must name continuous joints with upright axes");
+    }
+    joint->type = JointType::kFixed;
+  }
 }
 
 void checkWheels(const ObjectModel& model, bool is_sliding, const std::string& where) {
@@ -76,10 +95,11 @@ ObjectModel loadObjectModel(const std::filesystem::path& urdf_file) {
   ObjectModel model;
   model.name = urdf_file.stem().string();
   model.mechanism = loadMechanism(urdf_file);
-  model.casters = findCasters(model.mechanism, urdf_file.string());
-
   YamlReader reader =
       YamlReader::fromFile(std::filesystem::path(urdf_file).replace_extension("yaml"));
+  lockSwivels(reader, &model.mechanism);
+  model.casters = findCasters(model.mechanism, urdf_file.string());
+
   model.class_name = reader.text("class");
   model.tags = readTags(reader);
   checkWheels(model, reader.flag("sliding", false), urdf_file.string());

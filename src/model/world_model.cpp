@@ -17,7 +17,8 @@ constexpr double kLargestHeight_m = 100.0;
 /// Reads one world; every name in it (boxes, objects, the robot) is taken once.
 class WorldReader {
  public:
-  explicit WorldReader(const std::filesystem::path& file) : reader_(YamlReader::fromFile(file)) {
+  explicit WorldReader(const std::filesystem::path& file)
+      : reader_(YamlReader::fromFile(file)), folder_(file.parent_path()) {
     world_.name = file.stem().string();
     names_.insert("robot");
   }
@@ -31,6 +32,9 @@ class WorldReader {
     }
     for (YamlReader& entry : reader_.children("boxes")) {
       readBox(entry);
+    }
+    if (reader_.has("static_map")) {
+      readStaticMap();
     }
     for (YamlReader& entry : reader_.children("objects")) {
       readObject(entry);
@@ -99,6 +103,16 @@ class WorldReader {
     }
   }
 
+  /// A relative path starts at the world's own folder.
+  void readStaticMap() {
+    const std::filesystem::path file = reader_.text("static_map");
+    if (file.extension() != ".bt" && file.extension() != ".ot") {
+      throw InputError(reader_.where("static_map"),
+                       "is '" + file.string() + "'; must be an OctoMap file, .bt or .ot");
+    }
+    world_.static_map = folder_ / file;
+  }
+
   void readObject(YamlReader& reader) {
     ObjectPlacement object;
     object.id = takeName(reader, "id");
@@ -136,6 +150,7 @@ class WorldReader {
   }
 
   YamlReader reader_;
+  std::filesystem::path folder_;
   WorldModel world_;
   std::set<std::string> names_;
 };

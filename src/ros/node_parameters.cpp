@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "casepush/common/input_error.h"
+#include "casepush/world/static_map.h"
 
 namespace casepush {
 namespace {
@@ -200,7 +201,7 @@ SimNodeParameters loadSimNodeParameters(ParameterReader reader, const Catalog& c
   reader.read("survey_resolution", parameters.survey_resolution_m, 0.01, 0.5);
   reader.check([&] { parameters.simulator.validate(); });
   reader.check([&] {
-    parameters.world = catalog.world(world);
+    parameters.world = loadWorld(catalog, world);
     if (!object.empty()) {
       placeObject(parameters.world, catalog, object);
     }
@@ -284,7 +285,7 @@ DemoNodeParameters loadDemoNodeParameters(ParameterReader reader, const Catalog&
   reader.read("results", parameters.results);
   reader.read("time_limit", parameters.time_limit_s, 1.0, kUnbounded);
   reader.check([&] {
-    parameters.world = catalog.world(world);
+    parameters.world = loadWorld(catalog, world);
     parameters.object_id = placeObject(parameters.world, catalog, object);
     if (goal.empty() && !parameters.world.goal) {
       throw InputError("goal", "world " + world + " has none; give x [m] y [m] yaw [deg]");

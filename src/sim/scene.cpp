@@ -3,6 +3,7 @@
 #include <set>
 
 #include "bullet_conversions.h"
+#include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
 
 namespace casepush::sim {
@@ -36,6 +37,7 @@ Scene::Scene(WorldModel world_model, RobotModel robot_model,
       robot(std::move(robot_model)),
       models(std::move(object_models)),
       robot_blueprint(makeBlueprint(robot)) {
+  CASEPUSH_CHECK(!world.static_map, "world " << world.name << " lacks its static map");
   checkIds(world);
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const ObjectPlacement& placement = world.objects[i];

@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   casepush::addPlanCommand(app, run);
   casepush::addPushCommand(app, run);
   casepush::addCasesCommand(app, run);
+  casepush::addWorldCommand(app, run);
   const bool json = wantsJson(argc, argv);
   try {
     app.parse(argc, argv);

@@ -26,6 +26,7 @@ void addLearnCommand(CLI::App& app, Run& run);
 void addPlanCommand(CLI::App& app, Run& run);
 void addPushCommand(CLI::App& app, Run& run);
 void addCasesCommand(CLI::App& app, Run& run);
+void addWorldCommand(CLI::App& app, Run& run);
 
 /// A finite number in [low, high]: unlike CLI::Range, no NaN.
 CLI::Validator finiteIn(double low, double high);

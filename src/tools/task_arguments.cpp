@@ -4,6 +4,7 @@
 
 #include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
+#include "casepush/world/static_map.h"
 
 namespace casepush {
 namespace {
@@ -51,7 +52,7 @@ void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
 Task prepareTask(const TaskArguments& arguments) {
   Task task{Catalog::standard(), {}, {}, nullptr};
   const std::string name = task.catalog.object(arguments.object).name;
-  const WorldModel world = task.catalog.world(arguments.world);
+  const WorldModel world = loadWorld(task.catalog, arguments.world);
   const std::string robot = task.catalog.robot(world.robot).name;
   for (const Case& push_case :
        CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name)) {

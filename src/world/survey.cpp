@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
 #include "casepush/world/map.h"
 #include "casepush/world/shadow.h"
@@ -148,6 +149,7 @@ void addFloorRim(const WorldModel& world, double resolution_m,
 
 std::vector<Eigen::Vector3f> surveyPoints(const WorldModel& world, double resolution_m) {
   checkResolution(resolution_m, "map survey");
+  CASEPUSH_CHECK(!world.static_map, "world " << world.name << " lacks its static map");
   checkCost(world, resolution_m);
   std::vector<Eigen::Vector3f> points;
   addFloorRim(world, resolution_m, &points);

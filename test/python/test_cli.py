@@ -42,9 +42,9 @@ def case_base(tmp_path_factory):
 def test_help_explains_every_command():
     process = casepush("--help")
     assert process.returncode == 0
-    for word in ("learn", "plan", "push", "cases", "Exit code"):
+    for word in ("learn", "plan", "push", "cases", "world", "Exit code"):
         assert word in process.stdout
-    for command in ("learn", "plan", "push", "cases"):
+    for command in ("learn", "plan", "push", "cases", "world"):
         assert casepush(command, "--help").returncode == 0
 
 
@@ -100,6 +100,22 @@ def test_export_and_import_keep_every_case(tmp_path, case_base):
     assert listed[0] == listed[1]
 
 
+def test_generates_rooms_to_push_in(tmp_path, case_base):
+    generate = ("world", "generate", "--seed", 4, "--size", 8, "--density", 0.1, "--json")
+    files = [tmp_path / name for name in ("a.yaml", "b.yaml")]
+    for file in files:
+        process = casepush(*generate, "--output", file)
+        assert process.returncode == 0, process.stderr
+    assert files[0].read_bytes() == files[1].read_bytes()
+    room = result_of(process)
+    start, goal = ([room[key][part] for part in ("x_m", "y_m", "yaw_deg")]
+                   for key in ("start", "goal"))
+    planned = casepush("plan", "--object", "office_chair", "--world", files[0], "--case-base",
+                       case_base, "--start", *start, "--goal", *goal, "--json")
+    assert planned.returncode == 0, planned.stderr
+    assert result_of(planned)["success"] is True
+
+
 def write(path, text):
     path.write_text(text, encoding="utf-8")
     return path
@@ -148,6 +164,9 @@ def bad_inputs(tmp_path, case_base):
         (["cases", "import", "--case-base", tmp_path / "new.db", nan_yaml], ["nan.yaml", "period"]),
         (["learn", "--object", "office_chair", "--case-base", tmp_path / "l.db", "--cases", "0"],
          ["cases"]),
+        (["world", "generate", "--size", "1", "--output", tmp_path / "w.yaml"], ["size", "100"]),
+        (["world", "generate", "--density", "nan", "--output", tmp_path / "w.yaml"], ["density"]),
+        (["world", "generate", "--output", tmp_path / "absent" / "w.yaml"], ["absent"]),
         (["fly"], ["fly"]),
     ]
 

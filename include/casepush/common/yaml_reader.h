@@ -41,6 +41,9 @@ class YamlReader {
   /// List of finite numbers of the given length (`count` < 0: any length).
   std::vector<double> numbers(const std::string& key, int count);
 
+  /// List of non-empty texts, each on one line; empty if absent.
+  std::vector<std::string> texts(const std::string& key);
+
   YamlReader child(const std::string& key);  ///< Map under `key`; required.
   std::optional<YamlReader> optionalChild(const std::string& key);
   std::vector<YamlReader> children(const std::string& key);  ///< List of maps; empty if absent.

@@ -38,6 +38,8 @@ struct WorldModel {
   Eigen::Vector2d max_m{5.0, 5.0};
   Floor floor;
   std::vector<StaticBox> boxes;
+  /// An OctoMap file whose occupied space is static, too; world/static_map.h makes boxes of it.
+  std::optional<std::filesystem::path> static_map;
   std::vector<ObjectPlacement> objects;
   std::string robot = "cobot";  ///< Name or file of a RobotModel.
   Pose2 map_T_robot;
@@ -49,5 +51,15 @@ struct WorldModel {
 /// @throws InputError naming file, element and reason; also if an object or the robot stands
 /// outside.
 WorldModel loadWorldModel(const std::filesystem::path& yaml_file);
+
+/// The world in the format that loadWorldModel reads. What it reads from there is equal to `world`
+/// to the last bit, apart from the name, which is the file's, if angles came from degrees: from a
+/// file, or as `degrees * (pi / 180)`; other angles within 1e-12 rad.
+/// @pre Boxes are upright.
+std::string worldYaml(const WorldModel& world);
+
+/// Writes worldYaml(); whoever opens the file finds the old content or the new one.
+/// @throws InputError if the file cannot be written; the old one is then as it was.
+void saveWorldModel(const WorldModel& world, const std::filesystem::path& yaml_file);
 
 }  // namespace casepush

@@ -35,6 +35,18 @@ TEST(YamlReader, readsEveryKind) {
   yaml.finish();
 }
 
+TEST(YamlReader, readsListsOfTexts) {
+  EXPECT_EQ(reader("names: [a, 'b c', 3]").texts("names"),
+            (std::vector<std::string>{"a", "b c", "3"}));
+  EXPECT_TRUE(reader("other: 1").texts("names").empty());
+  EXPECT_EQ(inputErrorText([] { reader("names: a").texts("names"); }),
+            "room.yaml: names: must be a list of texts");
+  for (const char* text : {"names: [a, '']", "names: [[a]]", "names: [\"a\\nb\"]"}) {
+    EXPECT_EQ(inputErrorText([&] { reader(text).texts("names"); }),
+              "room.yaml: names: must be a list of non-empty texts on one line each");
+  }
+}
+
 TEST(YamlReader, fallsBackToDefaultsOnlyForMissingKeys) {
   YamlReader yaml = reader("mu: 5\n");
   EXPECT_EQ(yaml.number("nu", 0, 2, 0.25), 0.25);

@@ -61,6 +61,22 @@ TEST_F(LoadObjectModel, findsCastersAndFixedWheels) {
   EXPECT_NEAR(swivelling.trail_m, 0.02, 1e-12);
 }
 
+TEST_F(LoadObjectModel, locksSwivels) {
+  const ObjectModel cart = load(smallCartUrdf(), smallCartYaml() + "locked_swivels: [swivel]\n");
+  ASSERT_EQ(cart.casters.size(), 2U);
+  for (const Caster& caster : cart.casters) {
+    EXPECT_EQ(caster.swivel_joint, -1);
+  }
+  const int swivel = cart.mechanism.linkIndex("fork") - 1;
+  EXPECT_EQ(cart.mechanism.joints[swivel].type, JointType::kFixed);
+  for (const char* name : {"axle", "absent"}) {
+    EXPECT_EQ(
+        errorOf(smallCartUrdf(), smallCartYaml() + "locked_swivels: [" + std::string(name) + "]\n"),
+        "cart.yaml: locked_swivels: '" + std::string(name) +
+            "' is no swivel; must name continuous joints with upright axes");
+  }
+}
+
 TEST_F(LoadObjectModel, sweepsEachSwivellingCaster) {
   const ObjectModel cart = load(smallCartUrdf(), smallCartYaml());
   ASSERT_EQ(cart.solid.size(), 3U);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "casepush/common/pose2.h"
@@ -121,13 +122,14 @@ inline std::vector<Eigen::Vector2d> outline(const PlacedShape& placed) {
   return points;
 }
 
-/// Distance between the origins at which a robot made of upright cylinders around its axis touches
-/// the object from the given direction (in the object's frame).
-inline double contactDistance(const RobotModel& robot, const ObjectModel& object,
-                              double direction_rad) {
+/// How far from the object's origin, along the given direction in its frame, a robot made of
+/// upright cylinders around its axis touches the object if it passes the origin at `offset_m` to
+/// the left of that direction; nothing if it misses the object.
+inline std::optional<double> contactDistance(const RobotModel& robot, const ObjectModel& object,
+                                             double direction_rad, double offset_m = 0.0) {
   const Eigen::Vector2d direction(std::cos(direction_rad), std::sin(direction_rad));
   const Eigen::Vector2d normal(-direction.y(), direction.x());
-  double distance_m = 0.0;
+  std::optional<double> distance_m;
   for (const PlacedShape& part : robot.solid) {
     const double radius_m = std::get<Cylinder>(part.shape).radius_m;
     const HeightRange part_height = heightRange(part);
@@ -137,10 +139,11 @@ inline double contactDistance(const RobotModel& robot, const ObjectModel& object
         continue;
       }
       for (const Eigen::Vector2d& p : outline(shape)) {
-        const double across_m = p.dot(normal);
+        const double across_m = p.dot(normal) - offset_m;
         if (std::abs(across_m) < radius_m) {
-          distance_m = std::max(
-              distance_m, p.dot(direction) + std::sqrt(radius_m * radius_m - across_m * across_m));
+          const double touch_m =
+              p.dot(direction) + std::sqrt(radius_m * radius_m - across_m * across_m);
+          distance_m = std::max(distance_m.value_or(touch_m), touch_m);
         }
       }
     }

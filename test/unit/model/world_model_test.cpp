@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
+#include "casepush/common/random.h"
+#include "casepush/model/catalog.h"
 #include "common/input_error_text.h"
 #include "common/temporary_folder.h"
 #include "model/small_models.h"
@@ -128,6 +131,87 @@ TEST_F(LoadWorldModel, refusesFilesThatCannotBeReadOrAreCutOff) {
   EXPECT_NE(inputErrorText([&] { load(""); }), "");
   EXPECT_EQ(inputErrorText([] { loadWorldModel("/no/such.yaml"); }),
             "/no/such.yaml: cannot be read; is the path right?");
+}
+
+TEST_F(LoadWorldModel, readsWhereTheStaticMapIs) {
+  const WorldModel room = load(smallWorldYaml() + "static_map: maps/floor.bt\n");
+  EXPECT_EQ(room.static_map, folder_.path() / "maps/floor.bt");
+  EXPECT_EQ(load(smallWorldYaml() + "static_map: /maps/floor.ot\n").static_map, "/maps/floor.ot");
+  EXPECT_EQ(errorWith("goal:", "static_map: floor.png\ngoal:"),
+            "static_map: is 'floor.png'; must be an OctoMap file, .bt or .ot");
+}
+
+class SaveWorldModel : public LoadWorldModel {
+ protected:
+  WorldModel reloaded(const WorldModel& world) {
+    saveWorldModel(world, folder_.path() / "copy.yaml");
+    return loadWorldModel(folder_.path() / "copy.yaml");
+  }
+
+  static bool same(const Pose2& a, const Pose2& b) {
+    return a.position() == b.position() && a.yaw() == b.yaw();
+  }
+
+  static void expectSame(const WorldModel& a, const WorldModel& b) {
+    EXPECT_EQ(a.min_m, b.min_m);
+    EXPECT_EQ(a.max_m, b.max_m);
+    EXPECT_EQ(a.floor.friction, b.floor.friction);
+    EXPECT_EQ(a.floor.rolling_lever_arm_m, b.floor.rolling_lever_arm_m);
+    EXPECT_EQ(a.robot, b.robot);
+    EXPECT_EQ(a.static_map, b.static_map);
+    EXPECT_TRUE(same(a.map_T_robot, b.map_T_robot));
+    ASSERT_EQ(a.goal.has_value(), b.goal.has_value());
+    EXPECT_TRUE(!a.goal || same(*a.goal, *b.goal));
+    ASSERT_EQ(a.objects.size(), b.objects.size());
+    for (std::size_t i = 0; i < a.objects.size(); ++i) {
+      EXPECT_EQ(a.objects[i].id, b.objects[i].id);
+      EXPECT_EQ(a.objects[i].model, b.objects[i].model);
+      EXPECT_EQ(a.objects[i].tag_offset, b.objects[i].tag_offset);
+      EXPECT_TRUE(same(a.objects[i].map_T_object, b.objects[i].map_T_object)) << a.objects[i].id;
+    }
+    ASSERT_EQ(a.boxes.size(), b.boxes.size());
+    for (std::size_t i = 0; i < a.boxes.size(); ++i) {
+      EXPECT_EQ(a.boxes[i].name, b.boxes[i].name);
+      EXPECT_EQ(a.boxes[i].box.size_m, b.boxes[i].box.size_m);
+      EXPECT_EQ(a.boxes[i].map_T_box.matrix(), b.boxes[i].map_T_box.matrix()) << a.boxes[i].name;
+    }
+  }
+};
+
+TEST_F(SaveWorldModel, givesBackEveryShippedWorldToTheLastBit) {
+  const Catalog catalog = Catalog::standard();
+  for (const std::string& name : catalog.worldNames()) {
+    SCOPED_TRACE(name);
+    const WorldModel world = catalog.world(name);
+    expectSame(reloaded(world), world);
+  }
+}
+
+TEST_F(SaveWorldModel, givesBackOddNamesNumbersAndAngles) {
+  Random random(4);
+  std::string yaml = smallWorldYaml();  // ends with its boxes
+  for (int i = 0; i < 200; ++i) {
+    std::ostringstream box;
+    box.precision(i % 2 == 0 ? 4 : 17);
+    box << "  - {name: \"odd " << i << " \\\"'#:\", size_m: [" << random.uniform(1e-3, 1.0)
+        << ", 0.1, 1], xyz: [1, 5, 0.5], yaw_deg: " << random.uniform(-360.0, 360.0) << "}\n";
+    yaml += box.str();
+  }
+  const WorldModel world = load(yaml);
+  const WorldModel again = reloaded(world);
+  ASSERT_EQ(again.boxes.size(), world.boxes.size());
+  for (std::size_t i = 0; i < world.boxes.size(); ++i) {
+    EXPECT_EQ(again.boxes[i].name, world.boxes[i].name);
+    EXPECT_EQ(again.boxes[i].box.size_m, world.boxes[i].box.size_m);
+    EXPECT_LT((again.boxes[i].map_T_box.matrix() - world.boxes[i].map_T_box.matrix()).norm(),
+              1e-12);
+  }
+}
+
+TEST_F(SaveWorldModel, saysIfItCannotWrite) {
+  const std::filesystem::path file = folder_.path() / "absent" / "room.yaml";
+  EXPECT_EQ(inputErrorText([&] { saveWorldModel(load(smallWorldYaml()), file); }),
+            file.string() + ": cannot be written; is the folder there?");
 }
 
 }  // namespace

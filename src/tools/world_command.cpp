@@ -1,0 +1,54 @@
+#include <memory>
+
+#include "casepush/lab/room_generator.h"
+#include "command.h"
+#include "task_arguments.h"
+
+namespace casepush {
+namespace {
+
+struct GenerateArguments {
+  CommonOptions common;
+  RoomOptions room;
+  std::string output;
+};
+
+int generate(GenerateArguments arguments) {
+  const Stopwatch watch;
+  arguments.room.seed = static_cast<std::uint64_t>(arguments.common.seed);
+  const WorldModel room = generateRoom(Catalog::standard(), arguments.room);
+  saveWorldModel(room, arguments.output);
+  printResult({{"success", true},
+               {"file", arguments.output},
+               {"boxes", room.boxes.size()},
+               {"start", poseJson(room.objects.front().map_T_object)},
+               {"goal", poseJson(*room.goal)},
+               {"robot", poseJson(room.map_T_robot)},
+               {"seed", arguments.common.seed},
+               {"timing", {{"wall_s", watch.seconds()}}}},
+              arguments.common.json);
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void addWorldCommand(CLI::App& app, Run& run) {
+  CLI::App* world = app.add_subcommand("world", "Make worlds");
+  world->require_subcommand(1);
+  auto arguments = std::make_shared<GenerateArguments>();
+  CLI::App* command = world->add_subcommand(
+      "generate", "Write a cluttered room in which the object can be pushed from start to goal");
+  addCommonOptions(*command, arguments->common);
+  command->add_option("--object", arguments->room.object, "Object by name or URDF file")
+      ->capture_default_str();
+  command->add_option("--robot", arguments->room.robot, "Robot by name or URDF file")
+      ->capture_default_str();
+  command->add_option("--size", arguments->room.size_m, "Edge length of the room [m]")
+      ->capture_default_str();
+  command->add_option("--density", arguments->room.density, "Share of the floor under furniture")
+      ->capture_default_str();
+  command->add_option("--output", arguments->output, "World file to write (.yaml)")->required();
+  command->callback([arguments, &run] { run = [arguments] { return generate(*arguments); }; });
+}
+
+}  // namespace casepush
