@@ -1,21 +1,19 @@
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <LinearMath/btTransform.h>
 
-#include <memory>
 #include <vector>
 
 #include "casepush/common/pose2.h"
 #include "casepush/common/random.h"
 #include "casepush/model/world_model.h"
 #include "furniture_blueprint.h"
-#include "joint_friction.h"
 
 namespace casepush::sim {
 
 constexpr double kGravity_mps2 = 9.81;
+/// Wheel loads are smoothed over this time: a contact impulse of a single step is noisy.
+constexpr double kLoadSmoothing_s = 0.01;
 
 /// All of an object that moves. Vectors are indexed by body - 1 and by caster.
 struct FurnitureState {
@@ -31,41 +29,22 @@ struct FurnitureState {
 FurnitureState stateAtRest(const FurnitureBlueprint& blueprint, const Pose2& map_T_object,
                            Random& random);
 
-/// A pushable object in Bullet: a Featherstone tree with frictional caster joints.
-///
-/// Rolling resistance is the lever arm f of the wheel's contact: torque f N, with N the load that
-/// the floor carried in the last steps.
+/// Coefficient of a body's surface; coefficients of two bodies in contact are multiplied, and the
+/// floor's is 1.
+double surfaceFriction(const FurnitureBlueprint& blueprint, const BodyBlueprint& body,
+                       const Floor& floor);
+
+/// A pushable object in the simulated world, whatever the model of its casters.
 class Furniture {
  public:
-  Furniture(const FurnitureBlueprint& blueprint, const FurnitureState& state, const Floor& floor);
+  virtual ~Furniture() = default;
 
-  void addTo(btMultiBodyDynamicsWorld& world);
-
-  /// Before each step: lets the joints resist under the present wheel loads.
-  void applyFriction(double step_s);
-  /// After each step: the impulses that the floor gave, in the order of the casters.
-  void updateLoads(const std::vector<double>& wheel_impulse_ns, double step_s);
-
-  FurnitureState state() const;
-  Eigen::Isometry3d map_T_root() const;
-  Twist2 twist() const;  ///< Of the object's origin, in the object frame.
-  std::vector<Eigen::Isometry3d> map_T_links() const;
-  double mechanicalEnergyJ() const;  ///< Kinetic, and potential above the floor.
-  const std::vector<double>& wheelLoadN() const { return wheel_load_n_; }
-  const FurnitureBlueprint& blueprint() const { return blueprint_; }
-
- private:
-  void setupLinks();
-  void setupColliders(const Floor& floor);
-  void setState(const FurnitureState& state);
-  btTransform map_T_com(int body) const;
-
-  const FurnitureBlueprint& blueprint_;
-  double rolling_lever_arm_m_;
-  std::vector<double> wheel_load_n_;
-  std::unique_ptr<btMultiBody> body_;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
-  std::vector<std::unique_ptr<JointFriction>> friction_;  // By body - 1.
+  virtual FurnitureState state() const = 0;
+  virtual Eigen::Isometry3d map_T_root() const = 0;
+  virtual Twist2 twist() const = 0;  ///< Of the object's origin, in the object frame.
+  virtual std::vector<Eigen::Isometry3d> map_T_links() const = 0;
+  virtual double mechanicalEnergyJ() const = 0;  ///< Kinetic, and potential above the floor.
+  virtual const std::vector<double>& wheelLoadN() const = 0;  ///< In the order of the casters.
 };
 
 }  // namespace casepush::sim

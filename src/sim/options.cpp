@@ -24,6 +24,17 @@ class Violations {
 
 }  // namespace
 
+const char* toString(CasterModel model) {
+  return model == CasterModel::kPlanar ? "planar" : "featherstone";
+}
+
+CasterModel casterModelFromString(const std::string& name) {
+  for (const CasterModel model : {CasterModel::kFeatherstone, CasterModel::kPlanar}) {
+    if (name == toString(model)) return model;
+  }
+  throw InputError("caster model", "there is no \"" + name + "\"; featherstone or planar");
+}
+
 void SimulatorOptions::validate() const {
   Violations violations;
   violations.require("step_s", step_s, 1e-5, 0.02);

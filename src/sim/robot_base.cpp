@@ -6,11 +6,6 @@
 #include "casepush/common/input_error.h"
 
 namespace casepush::sim {
-namespace {
-
-constexpr double kBumperFriction = 0.6;
-
-}  // namespace
 
 RobotBlueprint makeBlueprint(const RobotModel& robot) {
   RobotBlueprint result;

@@ -13,6 +13,9 @@
 
 namespace casepush::sim {
 
+/// Of the robot's surface; coefficients of two bodies in contact are multiplied.
+constexpr double kBumperFriction = 0.6;
+
 /// All of the robot that stays the same whenever the world is rebuilt.
 struct RobotBlueprint {
   RobotLimits limits;
@@ -33,8 +36,18 @@ struct RobotState {
 
 RobotState stateAtRest(const RobotBlueprint& blueprint, const Pose2& map_T_robot);
 
-/// An omnidirectional base that moves in the plane of the floor.
-class RobotBase {
+/// An omnidirectional base that moves in the plane of the floor, whatever moves it.
+class Robot {
+ public:
+  virtual ~Robot() = default;
+
+  virtual RobotState state() const = 0;
+  virtual Pose2 pose() const = 0;
+  virtual Twist2 twist() const = 0;  ///< Of the base frame's origin, in the base frame.
+};
+
+/// The base as a rigid body of Bullet.
+class RobotBase final : public Robot {
  public:
   /// `ground` is a static body that outlives this.
   RobotBase(const RobotBlueprint& blueprint, const RobotState& state, btRigidBody& ground);
@@ -42,9 +55,9 @@ class RobotBase {
   void addTo(btDiscreteDynamicsWorld& world);
   void setTarget(const Twist2& robot_twist) { servo_->setTarget(robot_twist); }
 
-  RobotState state() const;
-  Pose2 pose() const;
-  Twist2 twist() const;  ///< Of the base frame's origin, in the base frame.
+  RobotState state() const override;
+  Pose2 pose() const override;
+  Twist2 twist() const override;
 
  private:
   const RobotBlueprint& blueprint_;

@@ -38,6 +38,10 @@ WorldState startState(const Scene& scene, Random& swivels) {
   return state;
 }
 
+sim::StepOptions stepOptions(const SimulatorOptions& options) {
+  return {options.step_s, options.solver_iterations, options.caster_model};
+}
+
 void checkPose(const WorldModel& world, const std::string& where, const Pose2& pose) {
   if (!pose.isFinite()) throw InputError(where, "the pose is not finite");
   if (world.contains(pose)) return;
@@ -72,9 +76,8 @@ struct Simulator::Data {
   struct Run {
     Run(const Scene& scene, const SimulatorOptions& options)
         : swivels(Random::stream(options.seed, "swivels")),
-          physics(std::make_unique<PhysicsWorld>(
-              scene, startState(scene, swivels),
-              sim::StepOptions{options.step_s, options.solver_iterations})),
+          physics(std::make_unique<PhysicsWorld>(scene, startState(scene, swivels),
+                                                 stepOptions(options))),
           cameras(scene, options.sensor_noise, options.seed),
           localisation(options, scene.world.map_T_robot) {}
 
@@ -151,7 +154,7 @@ void Simulator::step(int count) {
     run.physics->setRobotTarget(expired ? Twist2{} : run.command);
     run.physics->step(run.contacts);
     ++run.steps;
-    const sim::RobotBase& robot = run.physics->robot();
+    const sim::Robot& robot = run.physics->robot();
     run.localisation.update(data_->options.step_s, robot.pose(), robot.twist());
     run.cameras.update(data_->time(), *run.physics);
   }
@@ -199,8 +202,7 @@ void Simulator::setPoses(const std::map<std::string, Pose2>& map_T_bodies) {
     checkPose(scene.world, id, pose);
     state.furniture[index] = stateAtRest(scene.furniture[index], pose, swivels);
   }
-  auto physics = std::make_unique<PhysicsWorld>(
-      scene, state, sim::StepOptions{data_->options.step_s, data_->options.solver_iterations});
+  auto physics = std::make_unique<PhysicsWorld>(scene, state, stepOptions(data_->options));
   const auto overlap = physics->findOverlap(moved);
   if (overlap) throw InputError("world " + scene.world.name, *overlap);
   run.physics = std::move(physics);

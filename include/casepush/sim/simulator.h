@@ -14,10 +14,23 @@
 
 namespace casepush {
 
+/// How casters move, see docs/simulator.md.
+enum class CasterModel {
+  kFeatherstone,  ///< The reference: every fork and wheel is a body in space.
+  kPlanar,        ///< Fast: a body in the plane with a swivel angle for each caster.
+};
+
+/// "featherstone" or "planar".
+const char* toString(CasterModel model);
+
+/// @throws InputError if there is no model of that name.
+CasterModel casterModelFromString(const std::string& name);
+
 struct SimulatorOptions {
   std::uint64_t seed = 1;
   double step_s = 1.0 / 240.0;
   int solver_iterations = 30;
+  CasterModel caster_model = CasterModel::kFeatherstone;
   bool sensor_noise = true;
   double command_timeout_s = 0.25;      ///< The base stops when commands cease for this long.
   double localisation_sigma_m = 0.004;  ///< Bounded, correlated error of map_T_odom.
@@ -43,7 +56,7 @@ struct OdometryReading {
   Twist2 robot_twist;  ///< In the robot frame.
 };
 
-/// The bundled world: Bullet in double precision, casters as Featherstone joints, sensors.
+/// The bundled world: Bullet in double precision, furniture on casters, sensors.
 ///
 /// Deterministic: the same world, seed and sequence of calls give bit-identical results.
 /// Thread safety: none for one simulator; separate ones may run in separate threads.

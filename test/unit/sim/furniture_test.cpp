@@ -13,7 +13,25 @@
 namespace casepush::sim {
 namespace {
 
-constexpr double kStep_s = 1.0 / 240.0;
+StepOptions withModel(CasterModel model) {
+  StepOptions options;
+  options.caster_model = model;
+  return options;
+}
+
+std::string modelName(const testing::TestParamInfo<CasterModel>& info) {
+  return toString(info.param);
+}
+
+// Every model of casters has to obey the same laws.
+class FurnitureModels : public testing::TestWithParam<CasterModel> {
+ protected:
+  const StepOptions options_ = withModel(GetParam());
+};
+
+INSTANTIATE_TEST_SUITE_P(Models, FurnitureModels,
+                         testing::Values(CasterModel::kFeatherstone, CasterModel::kPlanar),
+                         modelName);
 
 WorldState restingState(const Scene& scene, std::uint64_t seed = 1) {
   Random random(seed);
@@ -37,13 +55,14 @@ void setRolling(FurnitureState& state, double speed_mps, double swivel_rad, doub
   }
 }
 
-double coastDistance(const test::CartOptions& cart, double lever_arm_m, double speed_mps) {
+double coastDistance(const test::CartOptions& cart, double lever_arm_m, double speed_mps,
+                     const StepOptions& options) {
   WorldModel world = test::makeCartWorld();
   world.floor.rolling_lever_arm_m = lever_arm_m;
   const Scene scene(world, test::makeRobot(), {{"cart", test::makeCart(cart)}});
   WorldState state = restingState(scene);
   setRolling(state.furniture[0], speed_mps, 0.0, cart.wheel_radius_m);
-  PhysicsWorld physics(scene, state, {});
+  PhysicsWorld physics(scene, state, options);
   ContactLog contacts;
   for (int i = 0; i < 240 * 20; ++i) {
     physics.step(contacts);
@@ -53,6 +72,7 @@ double coastDistance(const test::CartOptions& cart, double lever_arm_m, double s
 }
 
 struct CoastCase {
+  CasterModel model;
   double lever_arm_m;
   bool swivels;
 };
@@ -67,22 +87,32 @@ TEST_P(FurnitureCoast, stopsWhereRollingResistanceSays) {
   const double effective_mass = mass + 4.0 * test::wheelInertia(r) / (r * r);
   const double c_rr = GetParam().lever_arm_m / r;
   const double expected = 0.5 * 0.5 / (2.0 * kGravity_mps2 * c_rr) * effective_mass / mass;
-  const double measured = coastDistance(cart, GetParam().lever_arm_m, 0.5);
+  const double measured =
+      coastDistance(cart, GetParam().lever_arm_m, 0.5, withModel(GetParam().model));
   EXPECT_NEAR(measured, expected, 0.02 * expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(Floors, FurnitureCoast,
-                         testing::Values(CoastCase{0.0005, true}, CoastCase{0.001, true},
-                                         CoastCase{0.0024, true}, CoastCase{0.001, false}));
+std::vector<CoastCase> coastCases() {
+  std::vector<CoastCase> cases;
+  for (const CasterModel model : {CasterModel::kFeatherstone, CasterModel::kPlanar}) {
+    for (const double lever_arm_m : {0.0005, 0.001, 0.0024}) {
+      cases.push_back({model, lever_arm_m, true});
+    }
+    cases.push_back({model, 0.001, false});
+  }
+  return cases;
+}
 
-TEST(Furniture, neverGainsEnergyWhileCoasting) {
+INSTANTIATE_TEST_SUITE_P(Floors, FurnitureCoast, testing::ValuesIn(coastCases()));
+
+TEST_P(FurnitureModels, neverGainsEnergyWhileCoasting) {
   const Scene scene(test::makeCartWorld(), test::makeRobot(), {{"cart", test::makeCart()}});
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     WorldState state = restingState(scene, seed);
     state.furniture[0].base_velocity_mps = btVector3(0.5, 0.1, 0);
     state.furniture[0].base_omega_rps = btVector3(0, 0, 0.8);
-    PhysicsWorld physics(scene, state, {});
-    PhysicsWorld resting(scene, restingState(scene, seed), {});
+    PhysicsWorld physics(scene, state, options_);
+    PhysicsWorld resting(scene, restingState(scene, seed), options_);
     const double at_rest = resting.furniture(0).mechanicalEnergyJ();
     const double at_start = physics.furniture(0).mechanicalEnergyJ() - at_rest;
     double least = at_start;
@@ -99,7 +129,7 @@ TEST(Furniture, neverGainsEnergyWhileCoasting) {
   }
 }
 
-TEST(Furniture, resistsASteadyPushByLoadAndLeverArm) {
+TEST_P(FurnitureModels, resistsASteadyPushByLoadAndLeverArm) {
   for (const double mass_kg : {10.0, 30.0, 60.0}) {
     test::CartOptions options;
     options.mass_kg = mass_kg;
@@ -108,7 +138,7 @@ TEST(Furniture, resistsASteadyPushByLoadAndLeverArm) {
     const Scene scene(world, test::makeRobot(), {{"cart", test::makeCart(options)}});
     WorldState state = restingState(scene);
     setRolling(state.furniture[0], 0.0, 0.0, options.wheel_radius_m);
-    PhysicsWorld physics(scene, state, {});
+    PhysicsWorld physics(scene, state, options_);
     physics.setRobotTarget({0.3, 0.0, 0.0});
     ContactLog contacts;
     for (int i = 0; i < 240 * 2; ++i) physics.step(contacts);
@@ -122,7 +152,7 @@ TEST(Furniture, resistsASteadyPushByLoadAndLeverArm) {
   }
 }
 
-TEST(Furniture, castersTrailAfterAStraightPush) {
+TEST_P(FurnitureModels, castersTrailAfterAStraightPush) {
   WorldModel world = test::makeCartWorld();
   world.map_T_robot = Pose2(-0.56, 0.0, 0.0);
   const Scene scene(world, test::makeRobot(), {{"cart", test::makeCart()}});
@@ -132,7 +162,7 @@ TEST(Furniture, castersTrailAfterAStraightPush) {
   for (std::size_t i = 0; i < 4; ++i) {
     state.furniture[0].joint_rad[2 * i] = initial_deg[i] * M_PI / 180.0;
   }
-  PhysicsWorld physics(scene, state, {});
+  PhysicsWorld physics(scene, state, options_);
   physics.setRobotTarget({0.4, 0.0, 0.0});
   ContactLog contacts;
   while (physics.furniture(0).map_T_root().translation().x() < 0.8) physics.step(contacts);
@@ -145,15 +175,15 @@ TEST(Furniture, castersTrailAfterAStraightPush) {
   }
 }
 
-TEST(Furniture, slidesAsCoulombFrictionSays) {
+TEST_P(FurnitureModels, slidesAsCoulombFrictionSays) {
   WorldModel world = test::makeWorld();
   world.floor.friction = 0.4;
   world.objects.push_back({"crate_1", "crate", Pose2(), 0});
   const Scene scene(world, test::makeRobot(), {{"crate", test::makeCrate()}});
   WorldState state = restingState(scene);
-  PhysicsWorld settled(scene, state, {});
+  PhysicsWorld settled(scene, state, options_);
   state.furniture[0].base_velocity_mps = btVector3(1.0, 0, 0);
-  PhysicsWorld physics(scene, state, {});
+  PhysicsWorld physics(scene, state, options_);
   ContactLog contacts;
   for (int i = 0; i < 240; ++i) physics.step(contacts);
   const double expected = 1.0 / (2.0 * 0.4 * kGravity_mps2);
@@ -161,9 +191,9 @@ TEST(Furniture, slidesAsCoulombFrictionSays) {
   EXPECT_LT(physics.furniture(0).twist().speed(), 1e-3);
 }
 
-TEST(Furniture, wheelLoadsCarryTheWeight) {
+TEST_P(FurnitureModels, wheelLoadsCarryTheWeight) {
   const Scene scene(test::makeCartWorld(), test::makeRobot(), {{"cart", test::makeCart()}});
-  PhysicsWorld physics(scene, restingState(scene), {});
+  PhysicsWorld physics(scene, restingState(scene), options_);
   ContactLog contacts;
   for (int i = 0; i < 240; ++i) physics.step(contacts);
   double sum_n = 0.0;
@@ -175,9 +205,9 @@ TEST(Furniture, wheelLoadsCarryTheWeight) {
   EXPECT_NEAR(sum_n, weight_n, 1e-3 * weight_n);
 }
 
-TEST(Furniture, standsStillUntouched) {
+TEST_P(FurnitureModels, standsStillUntouched) {
   const Scene scene(test::makeCartWorld(), test::makeRobot(), {{"cart", test::makeCart()}});
-  PhysicsWorld physics(scene, restingState(scene), {});
+  PhysicsWorld physics(scene, restingState(scene), options_);
   ContactLog contacts;
   for (int i = 0; i < 240 * 5; ++i) physics.step(contacts);
   const Eigen::Isometry3d map_T_root = physics.furniture(0).map_T_root();
@@ -185,12 +215,12 @@ TEST(Furniture, standsStillUntouched) {
   EXPECT_TRUE(contacts.take().empty());
 }
 
-TEST(Furniture, linkPosesFollowTheJoints) {
+TEST_P(FurnitureModels, linkPosesFollowTheJoints) {
   const ObjectModel cart = test::makeCart();
   const Scene scene(test::makeCartWorld(Pose2(1.0, 2.0, 0.5)), test::makeRobot(), {{"cart", cart}});
   WorldState state = restingState(scene);
   setRolling(state.furniture[0], 0.0, 0.7, 0.05);
-  const PhysicsWorld physics(scene, state, {});
+  const PhysicsWorld physics(scene, state, options_);
   const auto poses = physics.furniture(0).map_T_links();
   ASSERT_EQ(poses.size(), cart.mechanism.links.size());
   const Eigen::Isometry3d map_T_root =

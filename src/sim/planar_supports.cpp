@@ -1,0 +1,172 @@
+#include "planar_supports.h"
+
+#include <cmath>
+
+#include "furniture.h"
+#include "wheel_loads.h"
+
+namespace casepush::sim {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Vector2d leftOf(const Vector2d& v) { return {-v.y(), v.x()}; }
+
+}  // namespace
+
+PlanarSupports::PlanarSupports(const PlanarModel& model, const Floor& floor)
+    : model_(model),
+      friction_(floor.friction),
+      rolling_lever_arm_m_(floor.rolling_lever_arm_m),
+      wheels_(model.wheels.size()),
+      points_(model.wheels.size() + model.skids.size()),
+      spin_mps_(model.wheels.size(), 0.0),
+      spin_rad_(model.wheels.size(), 0.0),
+      equilibrium_n_(points_.size()),
+      impulse_ns_(2 * points_.size() + model.swivels.size(), 0.0) {}
+
+void PlanarSupports::setLoads(const std::vector<double>& load_n) {
+  load_n_ = load_n;
+  load_n_.resize(points_.size(),
+                 model_.mass_kg * kGravity_mps2 / static_cast<double>(points_.size()));
+}
+
+void PlanarSupports::setSpin(int wheel, double angle_rad, double rate_rps) {
+  const auto i = static_cast<std::size_t>(wheel);
+  spin_rad_[i] = angle_rad;
+  spin_mps_[i] = rate_rps * model_.wheels[i].radius_m;
+}
+
+double PlanarSupports::spinRps(int wheel) const {
+  const auto i = static_cast<std::size_t>(wheel);
+  return spin_mps_[i] / model_.wheels[i].radius_m;
+}
+
+double PlanarSupports::spinEnergyJ() const {
+  double energy_j = 0.0;
+  for (std::size_t i = 0; i < spin_mps_.size(); ++i) {
+    energy_j += 0.5 * model_.wheels[i].spin_mass_kg * spin_mps_[i] * spin_mps_[i];
+  }
+  return energy_j;
+}
+
+void PlanarSupports::addMass(PlanarBody& body) {
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const PlanarWheel& wheel = model_.wheels[i];
+    const Vector2d contact = body.turned(wheel.contact_m, wheel.swivel);
+    const Vector2d forward = body.turned(wheel.rolling, wheel.swivel);
+    wheels_[i].forward = body.direction(contact, forward, wheel.swivel);
+    wheels_[i].sideways = body.direction(contact, leftOf(forward), wheel.swivel);
+    points_[i] = wheel.swivel < 0 ? contact : Vector2d(contact + body.pivot(wheel.swivel));
+    body.mass().add(wheels_[i].forward, wheel.spin_mass_kg);
+  }
+  for (std::size_t i = 0; i < model_.skids.size(); ++i) {
+    points_[i] = body.turned(model_.skids[i], -1);
+  }
+}
+
+void PlanarSupports::enter(double step_s, const PlanarBody& body, PlanarSolver& solver) {
+  contact_moment_.setZero();
+  contact_lift_ns_ = 0.0;
+  first_bound_ = solver.bounds().size();
+  first_slide_ = solver.slides().size();
+  // The mass holds wheels that spin as their contact rolls. A wheel whose contact has turned since
+  // spins differently: the difference is an impulse along its new way.
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const double lag_mps = spin_mps_[i] - body.speed(wheels_[i].forward);
+    body.applyImpulse(solver, wheels_[i].forward, model_.wheels[i].spin_mass_kg * lag_mps);
+  }
+  addWheelRows(step_s, body, solver);
+  addSwivelRows(step_s, body, solver);
+  addSkidRows(step_s, body, solver);
+}
+
+void PlanarSupports::addBound(PlanarSolver& solver, const PlanarBody& body,
+                              const PlanarDirection& direction, double limit_ns) {
+  PlanarBound row;
+  row.at = body.address(direction.swivel);
+  row.j = body.coordinates(direction);
+  row.limit = limit_ns;
+  row.impulse = impulse_ns_[solver.bounds().size() - first_bound_];
+  solver.add(row);
+}
+
+void PlanarSupports::addWheelRows(double step_s, const PlanarBody& body, PlanarSolver& solver) {
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const PlanarWheel& wheel = model_.wheels[i];
+    const double torque_nm = rolling_lever_arm_m_ * load_n_[i] + wheel.friction_nm;
+    addBound(solver, body, wheels_[i].sideways, friction_ * load_n_[i] * step_s);
+    addBound(solver, body, wheels_[i].forward, torque_nm / wheel.radius_m * step_s);
+  }
+}
+
+void PlanarSupports::addSwivelRows(double step_s, const PlanarBody& body, PlanarSolver& solver) {
+  for (std::size_t i = 0; i < model_.swivels.size(); ++i) {
+    PlanarDirection direction;
+    direction.chassis << 0.0, 0.0, -1.0;  // Relative to the chassis.
+    direction.swivel = static_cast<int>(i);
+    direction.swivel_rate = 1.0;
+    addBound(solver, body, direction, model_.swivels[i].friction_nm * step_s);
+  }
+}
+
+void PlanarSupports::addSkidRows(double step_s, const PlanarBody& body, PlanarSolver& solver) {
+  for (std::size_t i = 0; i < model_.skids.size(); ++i) {
+    PlanarSlide slide;
+    slide.x.at = slide.y.at = body.address(-1);
+    slide.x.j = body.coordinates(body.direction(points_[i], Vector2d::UnitX(), -1));
+    slide.y.j = body.coordinates(body.direction(points_[i], Vector2d::UnitY(), -1));
+    slide.x.limit = slide.y.limit = friction_ * load_n_[i] * step_s;
+    slide.x.impulse = impulse_ns_[2 * i];
+    slide.y.impulse = impulse_ns_[2 * i + 1];
+    solver.add(slide);
+  }
+}
+
+void PlanarSupports::noteContact(const PlanarBody& body, const Vector3d& map_point,
+                                 const Vector3d& impulse_ns) {
+  const Vector2d point = map_point.head<2>() - body.position();
+  contact_moment_ += map_point.z() * impulse_ns.head<2>() - impulse_ns.z() * point;
+  contact_lift_ns_ += impulse_ns.z();
+}
+
+Vector2d PlanarSupports::comMoment(const PlanarBody& body) const {
+  Vector2d moment = Vector2d::Zero();
+  for (std::size_t i = 0; i < model_.swivels.size(); ++i) {
+    const int swivel = static_cast<int>(i);
+    moment += model_.swivels[i].mass_kg * (body.pivot(swivel) + body.swivelCom(swivel));
+  }
+  return moment;
+}
+
+void PlanarSupports::leave(double step_s, const PlanarBody& body, const Vector2d& gained_mps,
+                           const PlanarSolver& solver) {
+  rememberImpulses(solver);
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    spin_mps_[i] = body.speed(wheels_[i].forward);
+    spin_rad_[i] += step_s * spin_mps_[i] / model_.wheels[i].radius_m;
+  }
+  // Balance of moments about the floor: weight, inertia at the centre of mass, contacts.
+  const double load_n = model_.mass_kg * kGravity_mps2 - contact_lift_ns_ / step_s;
+  const Vector2d moment_nm = kGravity_mps2 * comMoment(body) + contact_moment_ / step_s -
+                             model_.com_height_m * model_.mass_kg * gained_mps / step_s;
+  if (!shareLoad(points_, std::max(0.0, load_n), moment_nm, equilibrium_n_)) return;
+  const double gain = -std::expm1(-step_s / kLoadSmoothing_s);
+  for (std::size_t i = 0; i < load_n_.size(); ++i) {
+    load_n_[i] += gain * (equilibrium_n_[i] - load_n_[i]);
+  }
+}
+
+void PlanarSupports::rememberImpulses(const PlanarSolver& solver) {
+  const std::size_t bounds = 2 * model_.wheels.size() + model_.swivels.size();
+  for (std::size_t i = 0; i < bounds; ++i) {
+    impulse_ns_[i] = solver.bounds()[first_bound_ + i].impulse;
+  }
+  for (std::size_t i = 0; i < model_.skids.size(); ++i) {
+    impulse_ns_[2 * i] = solver.slides()[first_slide_ + i].x.impulse;
+    impulse_ns_[2 * i + 1] = solver.slides()[first_slide_ + i].y.impulse;
+  }
+}
+
+}  // namespace casepush::sim

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "casepush/model/world_model.h"
+#include "planar_body.h"
+
+namespace casepush::sim {
+
+/// What an object stands on: wheels, or skids if it has none. Their friction, spin and loads.
+class PlanarSupports {
+ public:
+  PlanarSupports(const PlanarModel& model, const Floor& floor);
+
+  void setLoads(const std::vector<double>& load_n);  ///< By wheel; skids share evenly.
+  const std::vector<double>& loadN() const { return load_n_; }
+  void setSpin(int wheel, double angle_rad, double rate_rps);
+  double spinRad(int wheel) const { return spin_rad_[static_cast<std::size_t>(wheel)]; }
+  double spinRps(int wheel) const;
+  double spinEnergyJ() const;
+
+  /// After PlanarBody::beginStep(): a rolling wheel spins, which adds to the mass.
+  void addMass(PlanarBody& body);
+  /// After PlanarBody::enter(): rows, from the impulses of the step before.
+  void enter(double step_s, const PlanarBody& body, PlanarSolver& solver);
+  /// An impulse on the object, at a point of the map.
+  void noteContact(const PlanarBody& body, const Eigen::Vector3d& map_point,
+                   const Eigen::Vector3d& impulse_ns);
+  /// After PlanarBody::leave(): spins and loads. @param gained_mps  Change of the body's velocity.
+  void leave(double step_s, const PlanarBody& body, const Eigen::Vector2d& gained_mps,
+             const PlanarSolver& solver);
+
+ private:
+  struct Wheel {
+    PlanarDirection forward;
+    PlanarDirection sideways;
+  };
+
+  void addWheelRows(double step_s, const PlanarBody& body, PlanarSolver& solver);
+  void addSwivelRows(double step_s, const PlanarBody& body, PlanarSolver& solver);
+  void addSkidRows(double step_s, const PlanarBody& body, PlanarSolver& solver);
+  void addBound(PlanarSolver& solver, const PlanarBody& body, const PlanarDirection& direction,
+                double limit_ns);
+  void rememberImpulses(const PlanarSolver& solver);
+  Eigen::Vector2d comMoment(const PlanarBody& body) const;
+
+  const PlanarModel& model_;
+  double friction_;
+  double rolling_lever_arm_m_;
+  std::vector<Wheel> wheels_;            // In this step.
+  std::vector<Eigen::Vector2d> points_;  // From the chassis' centre of mass.
+  std::vector<double> spin_mps_;         // Speed of each wheel's rim.
+  std::vector<double> spin_rad_;
+  std::vector<double> load_n_;
+  std::vector<double> equilibrium_n_;
+  std::vector<double> impulse_ns_;  // Of all rows in the step before.
+  std::size_t first_bound_ = 0;
+  std::size_t first_slide_ = 0;
+  Eigen::Vector2d contact_moment_ = Eigen::Vector2d::Zero();  // As of shareLoad, times time.
+  double contact_lift_ns_ = 0.0;
+};
+
+}  // namespace casepush::sim
