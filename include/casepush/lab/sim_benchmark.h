@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "casepush/model/catalog.h"
+#include "casepush/sim/simulator.h"
+
+namespace casepush {
+
+/// Which simulators to compare on the same pushes, and how many pushes.
+struct OutcomeComparisonOptions {
+  std::string object = "office_chair";
+  std::string robot = "cobot";
+  int pushes = 200;
+  int swivels = 20;  ///< Draws of the casters' angles for each push; the same for both.
+  std::uint64_t seed = 1;
+  int jobs = 1;  ///< Threads; the result does not depend on it.
+  SimulatorOptions reference;
+  SimulatorOptions other;
+  void validate() const;  ///< @throws InputError listing every violation.
+};
+
+/// Where an object comes to rest after one push, over the draws of swivel angles.
+struct OutcomeMoments {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< x, y [m], yaw [rad] in the start frame.
+  double position_sigma_m = 0.0;                   ///< Root of the covariance's trace.
+  double yaw_sigma_rad = 0.0;
+};
+
+struct PushComparison {
+  OutcomeMoments reference;
+  OutcomeMoments other;
+  std::vector<double> run_difference_m;  ///< Of the outcomes with equal swivels.
+};
+
+/// Random straight and curved pushes of 1 to 3 s from contact distance, each with random swivels.
+///
+/// Single outcomes may differ widely where a caster flips to one side or the other, so that only
+/// distributions can be compared.
+/// @param progress  Called with the number of finished pushes.
+/// @throws InputError from the catalog and the simulator.
+std::vector<PushComparison> compareOutcomes(const Catalog& catalog,
+                                            const OutcomeComparisonOptions& options,
+                                            const std::function<void(int)>& progress = {});
+
+/// How fast a simulator is on one core, by the thread's CPU time.
+struct SimSpeed {
+  double pushing = 0.0;       ///< Simulated seconds per second: the robot pushes all four objects.
+  double driving = 0.0;       ///< The robot drives, the objects stand.
+  double recreation_s = 0.0;  ///< Time to build the world anew with a body put elsewhere.
+};
+
+/// Robot, four objects, four walls and six boxes.
+SimSpeed measureSimSpeed(const Catalog& catalog, const std::string& object,
+                         const std::string& robot, const SimulatorOptions& options,
+                         double simulated_s);
+
+}  // namespace casepush
