@@ -5,6 +5,17 @@
 #include "bullet_conversions.h"
 
 namespace casepush::sim {
+namespace {
+
+// The contact of each wheel as a critically damped spring. Rigid ones would leave it to the
+// solver's history which of four or five wheels bear how much; equal springs share the load as
+// statics says.
+void soften(btCollisionObject& wheel, double share_kg) {
+  const double stiffness_npm = share_kg * kGravity_mps2 / kWheelSink_m;
+  wheel.setContactStiffnessAndDamping(stiffness_npm, 2.0 * std::sqrt(stiffness_npm * share_kg));
+}
+
+}  // namespace
 
 FeatherstoneFurniture::FeatherstoneFurniture(const FurnitureBlueprint& blueprint,
                                              const FurnitureState& state, const Floor& floor)
@@ -46,6 +57,7 @@ void FeatherstoneFurniture::setupLinks() {
 }
 
 void FeatherstoneFurniture::setupColliders(const Floor& floor) {
+  const auto wheels = static_cast<double>(blueprint_.wheel_radius_m.size());
   for (std::size_t b = 0; b < blueprint_.bodies.size(); ++b) {
     const BodyBlueprint& body = blueprint_.bodies[b];
     if (body.shape == nullptr) continue;
@@ -55,6 +67,7 @@ void FeatherstoneFurniture::setupColliders(const Floor& floor) {
     collider->setUserPointer(const_cast<CollisionTag*>(&body.tag));
     collider->setFriction(surfaceFriction(blueprint_, body, floor));
     collider->setRestitution(0.0);
+    if (body.wheel >= 0) soften(*collider, blueprint_.mass_kg / wheels);
     collider->setContactProcessingThreshold(kContactRange_m);
     collider->setActivationState(DISABLE_DEACTIVATION);
     if (link < 0) {

@@ -47,9 +47,10 @@ void markCasters(const std::vector<Caster>& casters, FurnitureBlueprint& result)
 }
 
 // A sphere touches a plane in one well-conditioned point and rolls true; a wheel's width matters
-// only on uneven floors.
+// only on uneven floors. Under load it has the wheel's radius.
 void addWheelShape(BodyBlueprint& body, FurnitureBlueprint& result) {
-  const double radius_m = result.wheel_radius_m[static_cast<std::size_t>(body.wheel)];
+  const double radius_m =
+      result.wheel_radius_m[static_cast<std::size_t>(body.wheel)] + kWheelSink_m;
   auto sphere = std::make_unique<btSphereShape>(radius_m);
   const Eigen::Vector3d com_p_pivot = body.mass.root_T_com.inverse() * body.root_pivot_m;
   if (com_p_pivot.norm() < 1e-9) {

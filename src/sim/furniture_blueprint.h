@@ -9,6 +9,9 @@
 
 namespace casepush::sim {
 
+/// Wheels yield this much under an even share of the weight.
+constexpr double kWheelSink_m = 2e-5;
+
 /// Links of an object that are rigidly joined, as one body of the Featherstone tree.
 struct BodyBlueprint {
   int parent = -1;  ///< Index of the parent body; -1 for the base, which is body 0.

@@ -109,9 +109,11 @@ void addCasters(const FurnitureBlueprint& blueprint, PlanarModel& result) {
     std::vector<int> bodies{index};
     for (std::size_t w = b + 1; w < blueprint.bodies.size(); ++w) {
       if (blueprint.bodies[w].parent != index) continue;
-      bodies.push_back(static_cast<int>(w));
-      result.wheels[static_cast<std::size_t>(blueprint.bodies[w].wheel)] =
+      PlanarWheel wheel =
           makeWheel(blueprint, static_cast<int>(w), static_cast<int>(result.swivels.size()), pivot);
+      wheel.holds_bearing = bodies.size() == 1;
+      bodies.push_back(static_cast<int>(w));
+      result.wheels[static_cast<std::size_t>(blueprint.bodies[w].wheel)] = wheel;
     }
     const Lump lump = lumpOf(blueprint, bodies);
     result.swivels.push_back({index - 1, body.root_axis.z() > 0.0 ? 1.0 : -1.0,

@@ -21,7 +21,8 @@ struct PlanarSwivel {
 /// A wheel on the floor.
 struct PlanarWheel {
   int joint = 0;
-  int swivel = -1;  ///< -1: fixed to the chassis.
+  int swivel = -1;             ///< -1: fixed to the chassis.
+  bool holds_bearing = false;  ///< The first wheel of its swivel.
   /// Contact from the swivel's pivot or, if fixed, from the chassis' centre of mass.
   Eigen::Vector2d contact_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d rolling = Eigen::Vector2d::UnitX();  ///< Way of travel at positive axle speed.

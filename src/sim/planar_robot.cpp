@@ -37,7 +37,7 @@ void PlanarRobot::placeCollider() { collider_.setWorldTransform(state().map_T_co
 void PlanarRobot::enter(double step_s, PlanarSolver& solver) {
   body_.beginStep();
   body_.enter(step_s, solver);
-  first_bound_ = solver.bounds().size();
+  first_drive_ = solver.drives().size();
   const Vector2d arm = body_.turned(-blueprint_.base_T_com.translation().head<2>(), -1);
   const double targets[] = {target_.vx_mps, target_.vy_mps, target_.wz_rps};
   const double limits[] = {blueprint_.limits.max_force_n, blueprint_.limits.max_force_n,
@@ -50,19 +50,19 @@ void PlanarRobot::enter(double step_s, PlanarSolver& solver) {
     } else {
       direction.chassis = Eigen::Vector3d::UnitZ();
     }
-    PlanarBound row;
-    row.at = body_.address(-1);
-    row.j = body_.coordinates(direction);
-    row.target = targets[axis];
-    row.limit = limits[axis] * step_s;
-    row.impulse = impulse_ns_[axis];
-    solver.add(row);
+    PlanarDrive drive;
+    drive.at = body_.address(-1);
+    drive.row.j = body_.coordinates(direction);
+    drive.row.target = targets[axis];
+    drive.row.limit = limits[axis] * step_s;
+    drive.row.impulse = impulse_ns_[axis];
+    solver.add(drive);
   }
 }
 
 void PlanarRobot::leave(double step_s, PlanarSolver& solver) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    impulse_ns_[axis] = solver.bounds()[first_bound_ + axis].impulse;
+    impulse_ns_[axis] = solver.drives()[first_drive_ + axis].row.impulse;
   }
   body_.leave(step_s, solver);
   placeCollider();

@@ -37,7 +37,7 @@ class PlanarRobot final : public Robot {
   PlanarBody body_;
   Twist2 target_;
   std::array<double, 3> impulse_ns_{};  // Of the drives in the step before.
-  std::size_t first_bound_ = 0;
+  std::size_t first_drive_ = 0;
   btCollisionObject collider_;
 };
 

@@ -6,34 +6,108 @@
 namespace casepush::sim {
 namespace {
 
-// Greatest change of any row's speed at which the solution counts as found.
-constexpr double kConverged_mps = 1e-8;
+using Eigen::Vector4d;
 
-double speed(const double* v, PlanarAddress at, const Eigen::Vector4d& j) {
-  return j[0] * v[at.body] + j[1] * v[at.body + 1] + j[2] * v[at.body + 2] + j[3] * v[at.swivel];
+// Greatest change of any row's speed at which the solution counts as found [m/s, rad/s].
+constexpr double kConverged = 1e-7;
+
+// The four velocities that a row of one body acts on, in registers for as long as they are needed.
+struct Local {
+  double y0, y1, y2, zeta;
+
+  Local(const double* v, PlanarAddress at)
+      : y0(v[at.body]), y1(v[at.body + 1]), y2(v[at.body + 2]), zeta(v[at.swivel]) {}
+
+  void store(double* v, PlanarAddress at) const {
+    v[at.swivel] = zeta;
+    v[at.body] = y0;  // Last: without a swivel both addresses are the same.
+    v[at.body + 1] = y1;
+    v[at.body + 2] = y2;
+  }
+  double speed(const Vector4d& j) const {
+    return (j[0] * y0 + j[1] * y1) + (j[2] * y2 + j[3] * zeta);
+  }
+  void push(const Vector4d& j, double impulse) {
+    y0 += j[0] * impulse;
+    y1 += j[1] * impulse;
+    y2 += j[2] * impulse;
+    zeta += j[3] * impulse;
+  }
+};
+
+double clampTo(double value, double limit) { return std::min(std::max(value, -limit), limit); }
+
+void setGain(PlanarBound& row) {
+  const double squared = row.j.squaredNorm();
+  row.gain = squared > 0.0 ? 1.0 / squared : 0.0;
 }
 
-void push(double* v, PlanarAddress at, const Eigen::Vector4d& j, double impulse) {
-  v[at.body] += j[0] * impulse;
-  v[at.body + 1] += j[1] * impulse;
-  v[at.body + 2] += j[2] * impulse;
-  v[at.swivel] += j[3] * impulse;
-}
-
-double gainOf(double squared_norm) { return squared_norm > 0.0 ? 1.0 / squared_norm : 0.0; }
-
-// Each returns the greatest change of speed.
-double solveRow(double* v, PlanarBound& row) {
-  const double wanted = row.impulse + (row.target - speed(v, row.at, row.j)) * row.gain;
-  const double change = std::min(std::max(wanted, -row.limit), row.limit) - row.impulse;
+// These return the change of speed in the row's direction.
+double solveRow(Local& v, PlanarBound& row) {
+  const double wanted = row.impulse + (row.target - v.speed(row.j)) * row.gain;
+  const double change = clampTo(wanted, row.limit) - row.impulse;
   row.impulse += change;
-  push(v, row.at, row.j, change);
-  return std::abs(change) / row.gain;
+  v.push(row.j, change);
+  return row.gain > 0.0 ? std::abs(change) / row.gain : 0.0;
 }
 
-double solveSlide(double* v, PlanarSlide& slide) {
-  double x = slide.x.impulse + (slide.x.target - speed(v, slide.x.at, slide.x.j)) * slide.x.gain;
-  double y = slide.y.impulse + (slide.y.target - speed(v, slide.y.at, slide.y.j)) * slide.y.gain;
+// Minimises a convex quadratic in two bounded impulses, as LCP: a row inside of its bounds has no
+// residual speed, one at a bound has one that would push it further out.
+double solvePair(Local& v, PlanarCaster& caster) {
+  PlanarBound& a = caster.sideways;
+  PlanarBound& b = caster.bearing;
+  const double residual_a = a.target - v.speed(a.j);
+  const double residual_b = b.target - v.speed(b.j);
+  const double aa = 1.0 / a.gain;
+  const double bb = 1.0 / b.gain;
+  const double ab = caster.coupling;
+  double change_a = (bb * residual_a - ab * residual_b) / caster.determinant;
+  double change_b = (aa * residual_b - ab * residual_a) / caster.determinant;
+  if (std::abs(a.impulse + change_a) > a.limit || std::abs(b.impulse + change_b) > b.limit) {
+    // The bearing slips: that is the rule for a wheel that has not found its way yet.
+    const auto fixBearing = [&](double impulse) {
+      change_b = impulse - b.impulse;
+      change_a = clampTo(a.impulse + (residual_a - ab * change_b) * a.gain, a.limit) - a.impulse;
+      return residual_b - ab * change_a - bb * change_b;  // Left over.
+    };
+    const bool slips = fixBearing(b.limit) >= 0.0 || fixBearing(-b.limit) <= 0.0;
+    if (!slips) {
+      // The bearing holds, so the wheel slips sideways.
+      const auto fixWheel = [&](double impulse) {
+        change_a = impulse - a.impulse;
+        change_b = clampTo(b.impulse + (residual_b - ab * change_a) * b.gain, b.limit) - b.impulse;
+        return residual_a - ab * change_b - aa * change_a;
+      };
+      if (fixWheel(a.limit) < 0.0) fixWheel(-a.limit);
+    }
+  }
+  a.impulse += change_a;
+  b.impulse += change_b;
+  v.push(a.j, change_a);
+  v.push(b.j, change_b);
+  return std::max(std::abs(aa * change_a + ab * change_b), std::abs(ab * change_a + bb * change_b));
+}
+
+double solveCaster(double* velocities, PlanarCaster& caster) {
+  Local v(velocities, caster.at);
+  double change = solveRow(v, caster.forward);
+  change = std::max(change,
+                    caster.determinant > 0.0 ? solvePair(v, caster) : solveRow(v, caster.sideways));
+  v.store(velocities, caster.at);
+  return change;
+}
+
+double solveDrive(double* velocities, PlanarDrive& drive) {
+  Local v(velocities, drive.at);
+  const double change = solveRow(v, drive.row);
+  v.store(velocities, drive.at);
+  return change;
+}
+
+double solveSlide(double* velocities, PlanarSlide& slide) {
+  Local v(velocities, slide.at);
+  double x = slide.x.impulse + (slide.x.target - v.speed(slide.x.j)) * slide.x.gain;
+  double y = slide.y.impulse + (slide.y.target - v.speed(slide.y.j)) * slide.y.gain;
   const double size = std::sqrt(x * x + y * y);
   if (size > slide.x.limit) {
     x *= slide.x.limit / size;
@@ -43,9 +117,18 @@ double solveSlide(double* v, PlanarSlide& slide) {
   const double change_y = y - slide.y.impulse;
   slide.x.impulse = x;
   slide.y.impulse = y;
-  push(v, slide.x.at, slide.x.j, change_x);
-  push(v, slide.y.at, slide.y.j, change_y);
+  v.push(slide.x.j, change_x);
+  v.push(slide.y.j, change_y);
+  v.store(velocities, slide.at);
   return std::max(std::abs(change_x) / slide.x.gain, std::abs(change_y) / slide.y.gain);
+}
+
+double speed(const double* v, PlanarAddress at, const Vector4d& j) { return Local(v, at).speed(j); }
+
+void push(double* velocities, PlanarAddress at, const Vector4d& j, double impulse) {
+  Local v(velocities, at);
+  v.push(j, impulse);
+  v.store(velocities, at);
 }
 
 double solveContact(double* v, PlanarContact& c) {
@@ -56,10 +139,9 @@ double solveContact(double* v, PlanarContact& c) {
   push(v, c.a, c.normal_a, normal_change);
   push(v, c.b, c.normal_b, normal_change);
 
-  const double limit = c.friction * normal;
   const double slip = speed(v, c.a, c.across_a) + speed(v, c.b, c.across_b);
-  const double wanted = c.across_impulse - slip * c.across_gain;
-  const double across_change = std::min(std::max(wanted, -limit), limit) - c.across_impulse;
+  const double across_change =
+      clampTo(c.across_impulse - slip * c.across_gain, c.friction * normal) - c.across_impulse;
   c.across_impulse += across_change;
   push(v, c.a, c.across_a, across_change);
   push(v, c.b, c.across_b, across_change);
@@ -70,44 +152,82 @@ double solveContact(double* v, PlanarContact& c) {
 
 void PlanarSolver::clear() {
   velocities_.assign(3, 0.0);
-  bounds_.clear();
+  drives_.clear();
+  casters_.clear();
   slides_.clear();
   contacts_.clear();
+  first_caster_.clear();
 }
 
 int PlanarSolver::addBody(int size) {
   const int address = static_cast<int>(velocities_.size());
   velocities_.resize(velocities_.size() + static_cast<std::size_t>(size), 0.0);
+  first_caster_.push_back(casters_.size());
   return address;
 }
 
-void PlanarSolver::add(const PlanarBound& row) {
-  bounds_.push_back(row);
-  bounds_.back().gain = gainOf(row.j.squaredNorm());
+void PlanarSolver::add(const PlanarDrive& drive) {
+  drives_.push_back(drive);
+  setGain(drives_.back().row);
+}
+
+void PlanarSolver::add(const PlanarCaster& caster) {
+  casters_.push_back(caster);
+  PlanarCaster& c = casters_.back();
+  for (PlanarBound* row : {&c.forward, &c.sideways, &c.bearing}) {
+    setGain(*row);
+    row->impulse = clampTo(row->impulse, row->limit);
+  }
+  if (c.bearing.gain <= 0.0) return;
+  c.coupling = c.sideways.j.dot(c.bearing.j);
+  c.determinant = 1.0 / (c.sideways.gain * c.bearing.gain) - c.coupling * c.coupling;
 }
 
 void PlanarSolver::add(const PlanarSlide& slide) {
   slides_.push_back(slide);
-  slides_.back().x.gain = gainOf(slide.x.j.squaredNorm());
-  slides_.back().y.gain = gainOf(slide.y.j.squaredNorm());
+  setGain(slides_.back().x);
+  setGain(slides_.back().y);
 }
 
 void PlanarSolver::add(const PlanarContact& contact) {
   contacts_.push_back(contact);
   PlanarContact& c = contacts_.back();
-  c.normal_gain = gainOf(c.normal_a.squaredNorm() + c.normal_b.squaredNorm());
-  c.across_gain = gainOf(c.across_a.squaredNorm() + c.across_b.squaredNorm());
+  c.normal_gain = 1.0 / (c.normal_a.squaredNorm() + c.normal_b.squaredNorm());
+  c.across_gain = 1.0 / (c.across_a.squaredNorm() + c.across_b.squaredNorm());
 }
 
 void PlanarSolver::solve(int iterations) {
+  orderCasters();
+  applyStart();
+  for (int i = 0; i < iterations; ++i) {
+    if (sweep() < kConverged) return;
+  }
+}
+
+// Rows of one body wait for each other, those of different bodies do not: taking turns lets the
+// processor work on several at a time.
+void PlanarSolver::orderCasters() {
+  order_.clear();
+  for (std::size_t turn = 0; order_.size() < casters_.size(); ++turn) {
+    for (std::size_t body = 0; body < first_caster_.size(); ++body) {
+      const std::size_t end =
+          body + 1 < first_caster_.size() ? first_caster_[body + 1] : casters_.size();
+      if (first_caster_[body] + turn < end) order_.push_back(first_caster_[body] + turn);
+    }
+  }
+}
+
+void PlanarSolver::applyStart() {
   double* v = velocities_.data();
-  for (PlanarBound& row : bounds_) {
-    row.impulse = std::clamp(row.impulse, -row.limit, row.limit);
-    push(v, row.at, row.j, row.impulse);
+  for (const PlanarDrive& drive : drives_) push(v, drive.at, drive.row.j, drive.row.impulse);
+  for (const PlanarCaster& caster : casters_) {
+    for (const PlanarBound* row : {&caster.forward, &caster.sideways, &caster.bearing}) {
+      push(v, caster.at, row->j, row->impulse);
+    }
   }
   for (const PlanarSlide& slide : slides_) {
-    push(v, slide.x.at, slide.x.j, slide.x.impulse);
-    push(v, slide.y.at, slide.y.j, slide.y.impulse);
+    push(v, slide.at, slide.x.j, slide.x.impulse);
+    push(v, slide.at, slide.y.j, slide.y.impulse);
   }
   for (const PlanarContact& c : contacts_) {
     push(v, c.a, c.normal_a, c.normal_impulse);
@@ -115,15 +235,13 @@ void PlanarSolver::solve(int iterations) {
     push(v, c.a, c.across_a, c.across_impulse);
     push(v, c.b, c.across_b, c.across_impulse);
   }
-  for (int i = 0; i < iterations; ++i) {
-    if (sweep() < kConverged_mps) return;
-  }
 }
 
 double PlanarSolver::sweep() {
   double* v = velocities_.data();
   double change = 0.0;
-  for (PlanarBound& row : bounds_) change = std::max(change, solveRow(v, row));
+  for (PlanarDrive& drive : drives_) change = std::max(change, solveDrive(v, drive));
+  for (const std::size_t i : order_) change = std::max(change, solveCaster(v, casters_[i]));
   for (PlanarSlide& slide : slides_) change = std::max(change, solveSlide(v, slide));
   for (PlanarContact& contact : contacts_) change = std::max(change, solveContact(v, contact));
   return change;

@@ -24,7 +24,7 @@ PlanarSupports::PlanarSupports(const PlanarModel& model, const Floor& floor)
       spin_mps_(model.wheels.size(), 0.0),
       spin_rad_(model.wheels.size(), 0.0),
       equilibrium_n_(points_.size()),
-      impulse_ns_(2 * points_.size() + model.swivels.size(), 0.0) {}
+      impulse_ns_(3 * points_.size(), 0.0) {}
 
 void PlanarSupports::setLoads(const std::vector<double>& load_n) {
   load_n_ = load_n;
@@ -69,7 +69,7 @@ void PlanarSupports::addMass(PlanarBody& body) {
 void PlanarSupports::enter(double step_s, const PlanarBody& body, PlanarSolver& solver) {
   contact_moment_.setZero();
   contact_lift_ns_ = 0.0;
-  first_bound_ = solver.bounds().size();
+  first_caster_ = solver.casters().size();
   first_slide_ = solver.slides().size();
   // The mass holds wheels that spin as their contact rolls. A wheel whose contact has turned since
   // spins differently: the difference is an impulse along its new way.
@@ -77,49 +77,45 @@ void PlanarSupports::enter(double step_s, const PlanarBody& body, PlanarSolver& 
     const double lag_mps = spin_mps_[i] - body.speed(wheels_[i].forward);
     body.applyImpulse(solver, wheels_[i].forward, model_.wheels[i].spin_mass_kg * lag_mps);
   }
-  addWheelRows(step_s, body, solver);
-  addSwivelRows(step_s, body, solver);
-  addSkidRows(step_s, body, solver);
+  addCasters(step_s, body, solver);
+  addSkids(step_s, body, solver);
 }
 
-void PlanarSupports::addBound(PlanarSolver& solver, const PlanarBody& body,
-                              const PlanarDirection& direction, double limit_ns) {
-  PlanarBound row;
-  row.at = body.address(direction.swivel);
-  row.j = body.coordinates(direction);
-  row.limit = limit_ns;
-  row.impulse = impulse_ns_[solver.bounds().size() - first_bound_];
-  solver.add(row);
-}
-
-void PlanarSupports::addWheelRows(double step_s, const PlanarBody& body, PlanarSolver& solver) {
+void PlanarSupports::addCasters(double step_s, const PlanarBody& body, PlanarSolver& solver) {
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     const PlanarWheel& wheel = model_.wheels[i];
     const double torque_nm = rolling_lever_arm_m_ * load_n_[i] + wheel.friction_nm;
-    addBound(solver, body, wheels_[i].sideways, friction_ * load_n_[i] * step_s);
-    addBound(solver, body, wheels_[i].forward, torque_nm / wheel.radius_m * step_s);
+    PlanarCaster caster;
+    caster.at = body.address(wheel.swivel);
+    caster.forward.j = body.coordinates(wheels_[i].forward);
+    caster.forward.limit = torque_nm / wheel.radius_m * step_s;
+    caster.sideways.j = body.coordinates(wheels_[i].sideways);
+    caster.sideways.limit = friction_ * load_n_[i] * step_s;
+    if (wheel.holds_bearing) {
+      PlanarDirection turning;  // Relative to the chassis.
+      turning.chassis << 0.0, 0.0, -1.0;
+      turning.swivel = wheel.swivel;
+      turning.swivel_rate = 1.0;
+      caster.bearing.j = body.coordinates(turning);
+      caster.bearing.limit =
+          model_.swivels[static_cast<std::size_t>(wheel.swivel)].friction_nm * step_s;
+    }
+    caster.forward.impulse = impulse_ns_[3 * i];
+    caster.sideways.impulse = impulse_ns_[3 * i + 1];
+    caster.bearing.impulse = impulse_ns_[3 * i + 2];
+    solver.add(caster);
   }
 }
 
-void PlanarSupports::addSwivelRows(double step_s, const PlanarBody& body, PlanarSolver& solver) {
-  for (std::size_t i = 0; i < model_.swivels.size(); ++i) {
-    PlanarDirection direction;
-    direction.chassis << 0.0, 0.0, -1.0;  // Relative to the chassis.
-    direction.swivel = static_cast<int>(i);
-    direction.swivel_rate = 1.0;
-    addBound(solver, body, direction, model_.swivels[i].friction_nm * step_s);
-  }
-}
-
-void PlanarSupports::addSkidRows(double step_s, const PlanarBody& body, PlanarSolver& solver) {
+void PlanarSupports::addSkids(double step_s, const PlanarBody& body, PlanarSolver& solver) {
   for (std::size_t i = 0; i < model_.skids.size(); ++i) {
     PlanarSlide slide;
-    slide.x.at = slide.y.at = body.address(-1);
+    slide.at = body.address(-1);
     slide.x.j = body.coordinates(body.direction(points_[i], Vector2d::UnitX(), -1));
     slide.y.j = body.coordinates(body.direction(points_[i], Vector2d::UnitY(), -1));
     slide.x.limit = slide.y.limit = friction_ * load_n_[i] * step_s;
-    slide.x.impulse = impulse_ns_[2 * i];
-    slide.y.impulse = impulse_ns_[2 * i + 1];
+    slide.x.impulse = impulse_ns_[3 * i];
+    slide.y.impulse = impulse_ns_[3 * i + 1];
     solver.add(slide);
   }
 }
@@ -159,13 +155,15 @@ void PlanarSupports::leave(double step_s, const PlanarBody& body, const Vector2d
 }
 
 void PlanarSupports::rememberImpulses(const PlanarSolver& solver) {
-  const std::size_t bounds = 2 * model_.wheels.size() + model_.swivels.size();
-  for (std::size_t i = 0; i < bounds; ++i) {
-    impulse_ns_[i] = solver.bounds()[first_bound_ + i].impulse;
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const PlanarCaster& caster = solver.casters()[first_caster_ + i];
+    impulse_ns_[3 * i] = caster.forward.impulse;
+    impulse_ns_[3 * i + 1] = caster.sideways.impulse;
+    impulse_ns_[3 * i + 2] = caster.bearing.impulse;
   }
   for (std::size_t i = 0; i < model_.skids.size(); ++i) {
-    impulse_ns_[2 * i] = solver.slides()[first_slide_ + i].x.impulse;
-    impulse_ns_[2 * i + 1] = solver.slides()[first_slide_ + i].y.impulse;
+    impulse_ns_[3 * i] = solver.slides()[first_slide_ + i].x.impulse;
+    impulse_ns_[3 * i + 1] = solver.slides()[first_slide_ + i].y.impulse;
   }
 }
 

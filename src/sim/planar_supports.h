@@ -37,11 +37,8 @@ class PlanarSupports {
     PlanarDirection sideways;
   };
 
-  void addWheelRows(double step_s, const PlanarBody& body, PlanarSolver& solver);
-  void addSwivelRows(double step_s, const PlanarBody& body, PlanarSolver& solver);
-  void addSkidRows(double step_s, const PlanarBody& body, PlanarSolver& solver);
-  void addBound(PlanarSolver& solver, const PlanarBody& body, const PlanarDirection& direction,
-                double limit_ns);
+  void addCasters(double step_s, const PlanarBody& body, PlanarSolver& solver);
+  void addSkids(double step_s, const PlanarBody& body, PlanarSolver& solver);
   void rememberImpulses(const PlanarSolver& solver);
   Eigen::Vector2d comMoment(const PlanarBody& body) const;
 
@@ -54,8 +51,8 @@ class PlanarSupports {
   std::vector<double> spin_rad_;
   std::vector<double> load_n_;
   std::vector<double> equilibrium_n_;
-  std::vector<double> impulse_ns_;  // Of all rows in the step before.
-  std::size_t first_bound_ = 0;
+  std::vector<double> impulse_ns_;  // Three for each wheel or skid, in the step before.
+  std::size_t first_caster_ = 0;
   std::size_t first_slide_ = 0;
   Eigen::Vector2d contact_moment_ = Eigen::Vector2d::Zero();  // As of shareLoad, times time.
   double contact_lift_ns_ = 0.0;
