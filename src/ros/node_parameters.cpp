@@ -195,6 +195,9 @@ SimNodeParameters loadSimNodeParameters(ParameterReader reader, const Catalog& c
   reader.read("object", object);
   reader.read("seed", parameters.simulator.seed);
   reader.read("sensor_noise", parameters.simulator.sensor_noise);
+  std::string caster_model = toString(parameters.simulator.caster_model);
+  reader.read("caster_model", caster_model);
+  reader.check([&] { parameters.simulator.caster_model = casterModelFromString(caster_model); });
   reader.read("command_timeout", parameters.simulator.command_timeout_s);
   reader.read("real_time_factor", parameters.real_time_factor, 0.0, 1000.0);
   reader.read("max_sim_time", parameters.max_sim_time_s, 0.0, kUnbounded);

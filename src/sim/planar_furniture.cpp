@@ -56,6 +56,10 @@ void PlanarFurniture::setState(const FurnitureState& state) {
     supports_.setSpin(static_cast<int>(i), state.joint_rad[joint], state.joint_rps[joint]);
   }
   supports_.setLoads(state.wheel_load_n);
+  if (!body_.isAtRest()) return;
+  body_.beginStep();
+  supports_.addMass(body_);
+  supports_.settle(body_);
 }
 
 void PlanarFurniture::setupColliders(const Floor& floor) {

@@ -1,5 +1,6 @@
 #include "planar_supports.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "furniture.h"
@@ -143,15 +144,23 @@ void PlanarSupports::leave(double step_s, const PlanarBody& body, const Vector2d
     spin_mps_[i] = body.speed(wheels_[i].forward);
     spin_rad_[i] += step_s * spin_mps_[i] / model_.wheels[i].radius_m;
   }
-  // Balance of moments about the floor: weight, inertia at the centre of mass, contacts.
-  const double load_n = model_.mass_kg * kGravity_mps2 - contact_lift_ns_ / step_s;
-  const Vector2d moment_nm = kGravity_mps2 * comMoment(body) + contact_moment_ / step_s -
-                             model_.com_height_m * model_.mass_kg * gained_mps / step_s;
-  if (!shareLoad(points_, std::max(0.0, load_n), moment_nm, equilibrium_n_)) return;
-  const double gain = -std::expm1(-step_s / kLoadSmoothing_s);
+  const Vector2d moment_nm =
+      (contact_moment_ - model_.com_height_m * model_.mass_kg * gained_mps) / step_s;
+  if (!balance(body, contact_lift_ns_ / step_s, moment_nm)) return;
+  const double gain = body.isAtRest() ? 1.0 : -std::expm1(-step_s / kLoadSmoothing_s);
   for (std::size_t i = 0; i < load_n_.size(); ++i) {
     load_n_[i] += gain * (equilibrium_n_[i] - load_n_[i]);
   }
+}
+
+void PlanarSupports::settle(const PlanarBody& body) {
+  if (balance(body, 0.0, Vector2d::Zero())) load_n_ = equilibrium_n_;
+}
+
+// Balance of moments about the floor: weight, and what contacts and inertia add to it.
+bool PlanarSupports::balance(const PlanarBody& body, double lift_n, const Vector2d& moment_nm) {
+  const double load_n = std::max(0.0, model_.mass_kg * kGravity_mps2 - lift_n);
+  return shareLoad(points_, load_n, kGravity_mps2 * comMoment(body) + moment_nm, equilibrium_n_);
 }
 
 void PlanarSupports::rememberImpulses(const PlanarSolver& solver) {

@@ -24,6 +24,8 @@ class PlanarSupports {
   void addMass(PlanarBody& body);
   /// After PlanarBody::enter(): rows, from the impulses of the step before.
   void enter(double step_s, const PlanarBody& body, PlanarSolver& solver);
+  /// The loads of an object that stands. @pre addMass() was called.
+  void settle(const PlanarBody& body);
   /// An impulse on the object, at a point of the map.
   void noteContact(const PlanarBody& body, const Eigen::Vector3d& map_point,
                    const Eigen::Vector3d& impulse_ns);
@@ -40,6 +42,7 @@ class PlanarSupports {
   void addCasters(double step_s, const PlanarBody& body, PlanarSolver& solver);
   void addSkids(double step_s, const PlanarBody& body, PlanarSolver& solver);
   void rememberImpulses(const PlanarSolver& solver);
+  bool balance(const PlanarBody& body, double lift_n, const Eigen::Vector2d& moment_nm);
   Eigen::Vector2d comMoment(const PlanarBody& body) const;
 
   const PlanarModel& model_;

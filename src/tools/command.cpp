@@ -47,6 +47,15 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "Print one JSON object on stdout; logs go to stderr");
 }
 
+void addCasterModelOption(CLI::App& command, CasterModel& model) {
+  command
+      .add_option_function<std::string>(
+          "--caster-model",
+          [&model](const std::string& name) { model = casterModelFromString(name); },
+          "How the simulator moves casters: featherstone (reference) or planar (fast)")
+      ->default_str(toString(model));
+}
+
 void printResult(const nlohmann::ordered_json& result, bool json) {
   if (json) {
     std::cout << result.dump() << std::endl;

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "casepush/sim/simulator.h"
+
 namespace casepush {
 
 /// Exit codes of the `casepush` command.
@@ -35,6 +37,9 @@ CLI::Validator notEmpty();
 
 /// --seed and --json.
 void addCommonOptions(CLI::App& command, CommonOptions& options);
+
+/// --caster-model. @pre `model` lives until the command line is parsed.
+void addCasterModelOption(CLI::App& command, CasterModel& model);
 
 /// Prints one JSON object on stdout if asked to, else its members as lines for a person.
 /// What differs between runs of the same seed is under "timing".

@@ -90,6 +90,7 @@ void addLearnCommand(CLI::App& app, Run& run) {
   command->add_option("--cases", exploration.cases, "Cases to learn")->capture_default_str();
   command->add_option("--practices", exploration.practices, "Pushes per case")
       ->capture_default_str();
+  addCasterModelOption(*command, arguments->learning.lab.simulator.caster_model);
   command->callback([arguments, &run] { run = [arguments] { return learn(*arguments); }; });
 }
 

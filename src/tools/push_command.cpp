@@ -17,6 +17,7 @@ constexpr double kPlanDeadlineS = 120.0;
 struct PushArguments {
   TaskArguments task;
   bool no_adapt = false;
+  CasterModel caster_model = CasterModel::kFeatherstone;
   double time_limit_s = 1200.0;
 };
 
@@ -79,6 +80,7 @@ int push(const PushArguments& arguments) {
   Task task = prepareTask(arguments.task);
   PushRunOptions options;
   options.lab.simulator.seed = arguments.task.common.seed;
+  options.lab.simulator.caster_model = arguments.caster_model;
   options.adapt = !arguments.no_adapt;
   options.time_limit_s = arguments.time_limit_s;
   options.task.plan_deadline_s = kPlanDeadlineS;
@@ -134,6 +136,7 @@ void addPushCommand(CLI::App& app, Run& run) {
   command->add_option("--time-limit", arguments->time_limit_s, "Simulated seconds for the task")
       ->check(finiteIn(1.0, 36000.0))
       ->capture_default_str();
+  addCasterModelOption(*command, arguments->caster_model);
   command->callback([arguments, &run] { run = [arguments] { return push(*arguments); }; });
 }
 

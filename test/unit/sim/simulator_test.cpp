@@ -74,9 +74,22 @@ std::uint64_t exercise(Simulator& simulator) {
   return hashOf(simulator);
 }
 
-TEST(Simulator, repeatsItselfBitByBit) {
-  Simulator first = makeSimulator(test::makeCartWorld(), 7);
-  Simulator second = makeSimulator(test::makeCartWorld(), 7);
+class SimulatorModels : public testing::TestWithParam<CasterModel> {
+ protected:
+  static SimulatorOptions options() {
+    SimulatorOptions result;
+    result.caster_model = GetParam();
+    return result;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Models, SimulatorModels,
+                         testing::Values(CasterModel::kFeatherstone, CasterModel::kPlanar),
+                         [](const auto& model) { return std::string(toString(model.param)); });
+
+TEST_P(SimulatorModels, repeatsItselfBitByBit) {
+  Simulator first = makeSimulator(test::makeCartWorld(), 7, options());
+  Simulator second = makeSimulator(test::makeCartWorld(), 7, options());
   const std::uint64_t hash = exercise(first);
   EXPECT_EQ(exercise(second), hash);
   second.step(100);
@@ -102,8 +115,8 @@ TEST(Simulator, drawsSwivelsFromTheSeedAndAnewAtEachSetPose) {
   EXPECT_GT(std::abs(swivelOf(simulator) - first), 1e-3);
 }
 
-TEST(Simulator, robotReachesTheCommandedVelocityAndStopsWithinAFifthOfASecond) {
-  Simulator simulator = makeSimulator(test::makeWorld());
+TEST_P(SimulatorModels, robotReachesTheCommandedVelocityAndStopsWithinAFifthOfASecond) {
+  Simulator simulator = makeSimulator(test::makeWorld(), 1, options());
   drive(simulator, {0.4, 0.3, 0.0}, 0.5);
   const Twist2 moving = simulator.odometry().robot_twist;
   EXPECT_NEAR(moving.vx_mps, 0.4, 0.01);
@@ -140,11 +153,11 @@ TEST(Simulator, ignoresCommandsThatAreNotFiniteAndClampsThoseBeyondLimits) {
   EXPECT_NEAR(twist.wz_rps, -1.0, 0.02);
 }
 
-TEST(Simulator, pushesAWallWithNoMoreThanTheDriveGives) {
+TEST_P(SimulatorModels, pushesAWallWithNoMoreThanTheDriveGives) {
   WorldModel world = test::makeWorld();
   world.boxes.push_back(test::makeBox("wall", {0.1, 4.0, 1.0}, 0.0, 0.0));
   world.map_T_robot = Pose2(-0.31, 0.0, 0.0);
-  Simulator simulator = makeSimulator(world);
+  Simulator simulator = makeSimulator(world, 1, options());
   drive(simulator, {0.5, 0.0, 0.0}, 0.5);
   simulator.takeContacts();
   drive(simulator, {0.5, 0.0, 0.0}, 1.0);
@@ -160,10 +173,10 @@ TEST(Simulator, pushesAWallWithNoMoreThanTheDriveGives) {
   EXPECT_LT(simulator.trueRobotPose().x(), -0.29);
 }
 
-TEST(Simulator, contactsNameParts) {
+TEST_P(SimulatorModels, contactsNameParts) {
   WorldModel world = test::makeCartWorld(Pose2(0.0, 0.0, 0.0));
   world.map_T_robot = Pose2(-0.6, 0.0, 0.0);
-  Simulator simulator = makeSimulator(world);
+  Simulator simulator = makeSimulator(world, 1, options());
   EXPECT_TRUE(simulator.takeContacts().empty());
   drive(simulator, {0.3, 0.0, 0.0}, 1.0);
   const auto contacts = simulator.takeContacts();
@@ -185,12 +198,12 @@ void expectInputError(const std::function<void()>& action, const std::string& te
   }
 }
 
-TEST(Simulator, refusesBadPosesAndStaysAsItWas) {
+TEST_P(SimulatorModels, refusesBadPosesAndStaysAsItWas) {
   WorldModel world = test::makeCartWorld();
   world.objects.push_back({"crate_1", "crate", Pose2(2.0, 2.0, 0.0), 0});
   world.boxes.push_back(test::makeBox("wall", {0.1, 4.0, 1.0}, 5.0, 0.0));
-  Simulator reference = makeSimulator(world);
-  Simulator simulator = makeSimulator(world);
+  Simulator reference = makeSimulator(world, 1, options());
+  Simulator simulator = makeSimulator(world, 1, options());
   drive(reference, {0.4, 0.0, 0.0}, 1.0);
   drive(simulator, {0.4, 0.0, 0.0}, 1.0);
   const auto set = [&](const std::map<std::string, Pose2>& poses) {
@@ -214,10 +227,10 @@ TEST(Simulator, refusesBadPosesAndStaysAsItWas) {
   EXPECT_EQ(hashOf(simulator), hashOf(reference));
 }
 
-TEST(Simulator, bodiesMayTradePlaces) {
+TEST_P(SimulatorModels, bodiesMayTradePlaces) {
   WorldModel world = test::makeCartWorld(Pose2(1.0, 1.0, 0.3));
   world.objects.push_back({"cart_2", "cart", Pose2(2.0, 2.0, 0.0), 10});
-  Simulator simulator = makeSimulator(world);
+  Simulator simulator = makeSimulator(world, 1, options());
   drive(simulator, {0.2, 0.0, 0.0}, 0.5);
   const double time_s = simulator.time();
   simulator.setPoses({{"cart_1", Pose2(2.0, 2.0, 0.0)}, {"cart_2", Pose2(1.0, 1.0, 0.3)}});
@@ -227,12 +240,12 @@ TEST(Simulator, bodiesMayTradePlaces) {
   EXPECT_NEAR(simulator.odometry().robot_twist.vx_mps, 0.2, 0.01);  // Not moved: drives on.
 }
 
-TEST(Simulator, refusesOverlappingStartPosesAndNamesBoth) {
+TEST_P(SimulatorModels, refusesOverlappingStartPosesAndNamesBoth) {
   WorldModel world = test::makeCartWorld();
   world.map_T_robot = Pose2(-0.4, 0.0, 0.0);
-  expectInputError([&] { makeSimulator(world); }, "world test_floor: ");
-  expectInputError([&] { makeSimulator(world); }, "cart_1 (body)");
-  expectInputError([&] { makeSimulator(world); }, "robot (base)");
+  expectInputError([&] { makeSimulator(world, 1, options()); }, "world test_floor: ");
+  expectInputError([&] { makeSimulator(world, 1, options()); }, "cart_1 (body)");
+  expectInputError([&] { makeSimulator(world, 1, options()); }, "robot (base)");
 }
 
 TEST(Simulator, refusesUnusableWorlds) {

@@ -53,7 +53,8 @@ TEST(TagCameras, seeTheTrueTagWithoutNoise) {
   const Eigen::Isometry3d map_T_object = simulator.trueLinkPoses("cart_1")[0];
   const Eigen::Isometry3d expected =
       makeCamera().base_T_camera.inverse() * map_T_object * test::makeCart().tags[0].object_T_tag;
-  EXPECT_LT((tag.camera_T_tag.matrix() - expected.matrix()).norm(), 1e-6);
+  // A wheel yields by some hundredths of a millimetre, more or less as the load is shared.
+  EXPECT_LT((tag.camera_T_tag.matrix() - expected.matrix()).norm(), 3e-5);
 }
 
 TEST(TagCameras, doNotSeeThroughWalls) {
