@@ -26,8 +26,9 @@ StaticBox boxAt(const std::string& name, const Eigen::Vector3d& size_m, double x
   return box;
 }
 
-// The robot before a row of objects that it will push all at once.
-WorldModel hall(const ObjectModel& object, const RobotModel& robot) {
+// The robot before a row of objects that it will push all at once; or before the first one, with
+// the others beside its way.
+WorldModel hall(const ObjectModel& object, const RobotModel& robot, bool in_row) {
   WorldModel world;
   world.name = "hall";
   world.min_m = {-kHallHalfM, -kHallHalfM};
@@ -37,7 +38,8 @@ WorldModel hall(const ObjectModel& object, const RobotModel& robot) {
   world.map_T_robot = Pose2(x, 0.0, 0.0);
   x += robot.radius_m + object.radius_m + 0.05;
   for (int i = 0; i < kObjects; ++i) {
-    world.objects.push_back({"object_" + std::to_string(i), object.name, Pose2(x, 0.0, 0.0), 0});
+    const double y = in_row || i == 0 ? 0.0 : 5.0;
+    world.objects.push_back({"object_" + std::to_string(i), object.name, Pose2(x, y, 0.0), 0});
     x += 2.0 * object.radius_m + 0.02;
   }
   const double length_m = 2.0 * kHallHalfM;
@@ -77,10 +79,13 @@ SimSpeed measureSimSpeed(const Catalog& catalog, const std::string& object,
   RobotModel robot_model = catalog.robot(robot);
   robot_model.cameras.clear();  // Physics only.
   const ObjectModel object_model = catalog.object(object);
-  const WorldModel world = hall(object_model, robot_model);
+  const WorldModel world = hall(object_model, robot_model, true);
   Simulator simulator(world, robot_model, {{object_model.name, object_model}}, options);
+  Simulator apart(hall(object_model, robot_model, false), robot_model,
+                  {{object_model.name, object_model}}, options);
   SimSpeed result;
-  result.pushing = speedOf(simulator, {kPushSpeedMps, 0.0, 0.0}, simulated_s);
+  result.pushing_all = speedOf(simulator, {kPushSpeedMps, 0.0, 0.0}, simulated_s);
+  result.pushing_one = speedOf(apart, {kPushSpeedMps, 0.0, 0.0}, simulated_s);
   result.driving = speedOf(simulator, {-0.1, 0.0, 0.0}, simulated_s);
   const double start_s = threadSeconds();
   for (int i = 0; i < kRecreations; ++i) simulator.setPose("robot", world.map_T_robot);
