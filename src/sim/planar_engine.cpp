@@ -16,6 +16,8 @@ using Eigen::Vector4d;
 constexpr double kPenetrationShare = 0.2;
 // A contact whose normal is steeper bears weight and cannot stop motion in the plane.
 constexpr double kSteepestNormal = 0.1;
+constexpr double kSamePlace_m = 1e-3;
+constexpr double kSameNormal = 0.9999;
 
 }  // namespace
 
@@ -66,11 +68,33 @@ void PlanarEngine::findTouches() {
         point.m_appliedImpulse = point.m_appliedImpulseLateral1 = 0.0;
         continue;
       }
-      touches_.push_back({manifold.getBody0(), manifold.getBody1(), &point});
-      wake(manifold.getBody0());
-      wake(manifold.getBody1());
+      addTouch(manifold, point);
     }
   }
+}
+
+// Faces that meet touch at a top and a bottom edge: one contact in the plane, at half the height.
+void PlanarEngine::addTouch(btPersistentManifold& manifold, btManifoldPoint& point) {
+  const Vector3d map_point =
+      0.5 * (toEigen(point.getPositionWorldOnA()) + toEigen(point.getPositionWorldOnB()));
+  for (auto touch = touches_.rbegin(); touch != touches_.rend(); ++touch) {
+    if (touch->a != manifold.getBody0() || touch->b != manifold.getBody1()) break;
+    const btManifoldPoint& other = *touch->point;
+    const bool same = (map_point - touch->map_point).head<2>().norm() < kSamePlace_m &&
+                      point.m_normalWorldOnB.dot(other.m_normalWorldOnB) > kSameNormal &&
+                      point.m_index0 == other.m_index0 && point.m_index1 == other.m_index1;
+    if (!same) continue;
+    touch->point->m_distance1 = std::min(other.m_distance1, point.m_distance1);
+    touch->point->m_appliedImpulse += point.m_appliedImpulse;
+    touch->point->m_appliedImpulseLateral1 += point.m_appliedImpulseLateral1;
+    point.m_appliedImpulse = point.m_appliedImpulseLateral1 = 0.0;
+    ++touch->points;
+    touch->map_point.z() += (map_point.z() - touch->map_point.z()) / touch->points;
+    return;
+  }
+  touches_.push_back({manifold.getBody0(), manifold.getBody1(), &point, map_point});
+  wake(manifold.getBody0());
+  wake(manifold.getBody1());
 }
 
 void PlanarEngine::wake(const btCollisionObject* object) {
@@ -112,8 +136,7 @@ void PlanarEngine::setSide(const btCollisionObject* object, const Vector2d& map_
 void PlanarEngine::addContact(const Touch& touch) {
   const btManifoldPoint& point = *touch.point;
   const Vector2d normal(point.m_normalWorldOnB.x(), point.m_normalWorldOnB.y());
-  const btVector3 middle = 0.5 * (point.getPositionWorldOnA() + point.getPositionWorldOnB());
-  const Vector2d map_point(middle.x(), middle.y());
+  const Vector2d map_point = touch.map_point.head<2>();
   PlanarContact contact;
   setSide(touch.a, map_point, normal, contact.a, contact.normal_a, contact.across_a);
   setSide(touch.b, map_point, -normal, contact.b, contact.normal_b, contact.across_b);
@@ -138,10 +161,8 @@ void PlanarEngine::readContacts(ContactLog& contacts) {
     const Vector3d normal = toEigen(point.m_normalWorldOnB);
     const Vector3d left = Vector3d(-normal.y(), normal.x(), 0.0).normalized();
     const Vector3d impulse = contact.normal_impulse * normal + contact.across_impulse * left;
-    const Vector3d middle =
-        0.5 * (toEigen(point.getPositionWorldOnA()) + toEigen(point.getPositionWorldOnB()));
-    if (PlanarFurniture* a = furnitureOf(touch.a)) a->noteContact(middle, impulse);
-    if (PlanarFurniture* b = furnitureOf(touch.b)) b->noteContact(middle, -impulse);
+    if (PlanarFurniture* a = furnitureOf(touch.a)) a->noteContact(touch.map_point, impulse);
+    if (PlanarFurniture* b = furnitureOf(touch.b)) b->noteContact(touch.map_point, -impulse);
   }
 }
 

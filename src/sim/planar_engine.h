@@ -34,9 +34,12 @@ class PlanarEngine final : public Engine {
     const btCollisionObject* a;
     const btCollisionObject* b;
     btManifoldPoint* point;
+    Eigen::Vector3d map_point;
+    int points = 1;  // One above the other, that are the same in the plane.
   };
 
   void findTouches();
+  void addTouch(btPersistentManifold& manifold, btManifoldPoint& point);
   void enterBodies();
   PlanarFurniture* furnitureOf(const btCollisionObject* object) const;
   void wake(const btCollisionObject* object);

@@ -38,31 +38,31 @@ struct Local {
 double clampTo(double value, double limit) { return std::min(std::max(value, -limit), limit); }
 
 void setGain(PlanarBound& row) {
-  const double squared = row.j.squaredNorm();
-  row.gain = squared > 0.0 ? 1.0 / squared : 0.0;
+  row.squared = row.j.squaredNorm();
+  row.gain = row.squared > 0.0 ? 1.0 / row.squared : 0.0;
 }
 
 // These return the change of speed in the row's direction.
-double solveRow(Local& v, PlanarBound& row) {
+inline double solveRow(Local& v, PlanarBound& row) {
   const double wanted = row.impulse + (row.target - v.speed(row.j)) * row.gain;
   const double change = clampTo(wanted, row.limit) - row.impulse;
   row.impulse += change;
   v.push(row.j, change);
-  return row.gain > 0.0 ? std::abs(change) / row.gain : 0.0;
+  return std::abs(change) * row.squared;
 }
 
 // Minimises a convex quadratic in two bounded impulses, as LCP: a row inside of its bounds has no
 // residual speed, one at a bound has one that would push it further out.
-double solvePair(Local& v, PlanarCaster& caster) {
+inline double solvePair(Local& v, PlanarCaster& caster) {
   PlanarBound& a = caster.sideways;
   PlanarBound& b = caster.bearing;
   const double residual_a = a.target - v.speed(a.j);
   const double residual_b = b.target - v.speed(b.j);
-  const double aa = 1.0 / a.gain;
-  const double bb = 1.0 / b.gain;
+  const double aa = a.squared;
+  const double bb = b.squared;
   const double ab = caster.coupling;
-  double change_a = (bb * residual_a - ab * residual_b) / caster.determinant;
-  double change_b = (aa * residual_b - ab * residual_a) / caster.determinant;
+  double change_a = (bb * residual_a - ab * residual_b) * caster.inverse_determinant;
+  double change_b = (aa * residual_b - ab * residual_a) * caster.inverse_determinant;
   if (std::abs(a.impulse + change_a) > a.limit || std::abs(b.impulse + change_b) > b.limit) {
     // The bearing slips: that is the rule for a wheel that has not found its way yet.
     const auto fixBearing = [&](double impulse) {
@@ -91,8 +91,8 @@ double solvePair(Local& v, PlanarCaster& caster) {
 double solveCaster(double* velocities, PlanarCaster& caster) {
   Local v(velocities, caster.at);
   double change = solveRow(v, caster.forward);
-  change = std::max(change,
-                    caster.determinant > 0.0 ? solvePair(v, caster) : solveRow(v, caster.sideways));
+  change = std::max(change, caster.inverse_determinant > 0.0 ? solvePair(v, caster)
+                                                             : solveRow(v, caster.sideways));
   v.store(velocities, caster.at);
   return change;
 }
@@ -120,10 +120,8 @@ double solveSlide(double* velocities, PlanarSlide& slide) {
   v.push(slide.x.j, change_x);
   v.push(slide.y.j, change_y);
   v.store(velocities, slide.at);
-  return std::max(std::abs(change_x) / slide.x.gain, std::abs(change_y) / slide.y.gain);
+  return std::max(std::abs(change_x) * slide.x.squared, std::abs(change_y) * slide.y.squared);
 }
-
-double speed(const double* v, PlanarAddress at, const Vector4d& j) { return Local(v, at).speed(j); }
 
 void push(double* velocities, PlanarAddress at, const Vector4d& j, double impulse) {
   Local v(velocities, at);
@@ -131,21 +129,26 @@ void push(double* velocities, PlanarAddress at, const Vector4d& j, double impuls
   v.store(velocities, at);
 }
 
-double solveContact(double* v, PlanarContact& c) {
-  const double approach = speed(v, c.a, c.normal_a) + speed(v, c.b, c.normal_b);
+double solveContact(double* velocities, PlanarContact& c) {
+  Local a(velocities, c.a);
+  Local b(velocities, c.b);
+  const double approach = a.speed(c.normal_a) + b.speed(c.normal_b);
   const double normal = std::max(0.0, c.normal_impulse + (c.target - approach) * c.normal_gain);
   const double normal_change = normal - c.normal_impulse;
   c.normal_impulse = normal;
-  push(v, c.a, c.normal_a, normal_change);
-  push(v, c.b, c.normal_b, normal_change);
+  a.push(c.normal_a, normal_change);
+  b.push(c.normal_b, normal_change);
 
-  const double slip = speed(v, c.a, c.across_a) + speed(v, c.b, c.across_b);
+  const double slip = a.speed(c.across_a) + b.speed(c.across_b);
   const double across_change =
       clampTo(c.across_impulse - slip * c.across_gain, c.friction * normal) - c.across_impulse;
   c.across_impulse += across_change;
-  push(v, c.a, c.across_a, across_change);
-  push(v, c.b, c.across_b, across_change);
-  return std::max(std::abs(normal_change) / c.normal_gain, std::abs(across_change) / c.across_gain);
+  a.push(c.across_a, across_change);
+  b.push(c.across_b, across_change);
+  a.store(velocities, c.a);
+  b.store(velocities, c.b);
+  return std::max(std::abs(normal_change) * c.normal_squared,
+                  std::abs(across_change) * c.across_squared);
 }
 
 }  // namespace
@@ -180,7 +183,7 @@ void PlanarSolver::add(const PlanarCaster& caster) {
   }
   if (c.bearing.gain <= 0.0) return;
   c.coupling = c.sideways.j.dot(c.bearing.j);
-  c.determinant = 1.0 / (c.sideways.gain * c.bearing.gain) - c.coupling * c.coupling;
+  c.inverse_determinant = 1.0 / (c.sideways.squared * c.bearing.squared - c.coupling * c.coupling);
 }
 
 void PlanarSolver::add(const PlanarSlide& slide) {
@@ -192,8 +195,10 @@ void PlanarSolver::add(const PlanarSlide& slide) {
 void PlanarSolver::add(const PlanarContact& contact) {
   contacts_.push_back(contact);
   PlanarContact& c = contacts_.back();
-  c.normal_gain = 1.0 / (c.normal_a.squaredNorm() + c.normal_b.squaredNorm());
-  c.across_gain = 1.0 / (c.across_a.squaredNorm() + c.across_b.squaredNorm());
+  c.normal_squared = c.normal_a.squaredNorm() + c.normal_b.squaredNorm();
+  c.normal_gain = 1.0 / c.normal_squared;
+  c.across_squared = c.across_a.squaredNorm() + c.across_b.squaredNorm();
+  c.across_gain = 1.0 / c.across_squared;
 }
 
 void PlanarSolver::solve(int iterations) {

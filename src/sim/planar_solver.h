@@ -17,7 +17,8 @@ struct PlanarBound {
   double target = 0.0;
   double limit = 0.0;
   double impulse = 0.0;
-  double gain = 0.0;  ///< Impulse for one unit of speed; set by the solver.
+  double squared = 0.0;  ///< Speed for one unit of impulse, and its inverse; set by the solver.
+  double gain = 0.0;
 };
 
 /// A drive of the robot.
@@ -35,8 +36,8 @@ struct PlanarCaster {
   PlanarBound forward;
   PlanarBound sideways;
   PlanarBound bearing;
-  double coupling = 0.0;     ///< Of sideways and bearing; set by the solver, as are these:
-  double determinant = 0.0;  ///< 0: no bearing.
+  double coupling = 0.0;             ///< Of sideways and bearing; set by the solver, as are these:
+  double inverse_determinant = 0.0;  ///< 0: no bearing.
 };
 
 /// Two constraints of one body whose impulses together are limited: Coulomb friction of a point.
@@ -53,7 +54,9 @@ struct PlanarContact {
   Eigen::Vector4d normal_a, normal_b, across_a, across_b;
   double target = 0.0;
   double friction = 0.0;
+  double normal_squared = 0.0;  ///< As in PlanarBound.
   double normal_gain = 0.0;
+  double across_squared = 0.0;
   double across_gain = 0.0;
   double normal_impulse = 0.0;
   double across_impulse = 0.0;
