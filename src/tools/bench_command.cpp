@@ -8,6 +8,8 @@
 namespace casepush {
 namespace {
 
+constexpr double kLeastSigma = 1e-6;  // Below it an outcome does not vary.
+
 struct BenchArguments {
   CommonOptions common;
   OutcomeComparisonOptions outcomes;
@@ -28,6 +30,7 @@ nlohmann::ordered_json spread(const std::vector<double>& values) {
 }
 
 nlohmann::ordered_json ratios(const std::vector<double>& values) {
+  if (values.empty()) return nullptr;  // Nothing varies: the object has no swivels.
   return {{"p10", quantile(values, 0.1)},
           {"median", quantile(values, 0.5)},
           {"p90", quantile(values, 0.9)}};
@@ -46,20 +49,27 @@ nlohmann::ordered_json comparisonJson(const std::vector<PushComparison>& pushes)
     run_m.insert(run_m.end(), push.run_difference_m.begin(), push.run_difference_m.end());
     sigma_m.push_back(push.reference.position_sigma_m);
     sigma_rad.push_back(push.reference.yaw_sigma_rad);
-    ratio_m.push_back(push.other.position_sigma_m / push.reference.position_sigma_m);
-    ratio_rad.push_back(push.other.yaw_sigma_rad / push.reference.yaw_sigma_rad);
+    if (push.reference.position_sigma_m > kLeastSigma) {
+      ratio_m.push_back(push.other.position_sigma_m / push.reference.position_sigma_m);
+    }
+    if (push.reference.yaw_sigma_rad > kLeastSigma) {
+      ratio_rad.push_back(push.other.yaw_sigma_rad / push.reference.yaw_sigma_rad);
+    }
     const auto add = [](Eigen::Vector2d& sum, const OutcomeMoments& moments) {
       sum += Eigen::Vector2d(moments.position_sigma_m, moments.yaw_sigma_rad).cwiseAbs2();
     };
     add(reference_variance, push.reference);
     add(other_variance, push.other);
   }
-  const Eigen::Vector2d pooled = other_variance.cwiseQuotient(reference_variance).cwiseSqrt();
-  return {{"displacement_m", spread(displacement_m)},  {"mean_difference_m", spread(mean_m)},
-          {"mean_difference_rad", spread(mean_rad)},   {"run_difference_m", spread(run_m)},
-          {"reference_sigma_m", spread(sigma_m)},      {"reference_sigma_rad", spread(sigma_rad)},
-          {"sigma_ratio_position", ratios(ratio_m)},   {"sigma_ratio_yaw", ratios(ratio_rad)},
-          {"pooled_sigma_ratio_position", pooled.x()}, {"pooled_sigma_ratio_yaw", pooled.y()}};
+  const auto pooled = [&](int i) -> nlohmann::ordered_json {
+    if (reference_variance[i] < kLeastSigma * kLeastSigma) return nullptr;
+    return std::sqrt(other_variance[i] / reference_variance[i]);
+  };
+  return {{"displacement_m", spread(displacement_m)}, {"mean_difference_m", spread(mean_m)},
+          {"mean_difference_rad", spread(mean_rad)},  {"run_difference_m", spread(run_m)},
+          {"reference_sigma_m", spread(sigma_m)},     {"reference_sigma_rad", spread(sigma_rad)},
+          {"sigma_ratio_position", ratios(ratio_m)},  {"sigma_ratio_yaw", ratios(ratio_rad)},
+          {"pooled_sigma_ratio_position", pooled(0)}, {"pooled_sigma_ratio_yaw", pooled(1)}};
 }
 
 nlohmann::ordered_json compare(const BenchArguments& arguments, const SimulatorOptions& other,
@@ -134,7 +144,8 @@ void addBenchCommand(CLI::App& app, Run& run) {
       ->capture_default_str();
   command->add_option("--robot", outcomes.robot, "Robot by name or URDF file")
       ->capture_default_str();
-  command->add_option("--pushes", outcomes.pushes, "Random pushes; 0: measure speed only")->capture_default_str();
+  command->add_option("--pushes", outcomes.pushes, "Random pushes; 0: measure speed only")
+      ->capture_default_str();
   command->add_option("--swivels", outcomes.swivels, "Random swivel angles for each push")
       ->capture_default_str();
   command->add_option("--jobs", outcomes.jobs, "Threads for the pushes")->capture_default_str();
