@@ -42,9 +42,9 @@ def case_base(tmp_path_factory):
 def test_help_explains_every_command():
     process = casepush("--help")
     assert process.returncode == 0
-    for word in ("learn", "plan", "push", "cases", "world", "Exit code"):
+    for word in ("learn", "plan", "push", "cases", "world", "bench", "Exit code"):
         assert word in process.stdout
-    for command in ("learn", "plan", "push", "cases", "world"):
+    for command in ("learn", "plan", "push", "cases", "world", "bench"):
         assert casepush(command, "--help").returncode == 0
 
 
@@ -198,3 +198,19 @@ def test_goal_in_a_wall_is_refused_with_a_reason(case_base):
                        "0.05", "5", "0", "--json")
     assert process.returncode == 2
     assert "goal (0.05, 5.00, 0 deg)" in result_of(process)["error"]
+
+
+def test_bench_compares_the_caster_models():
+    process = casepush("bench", "sim", "--pushes", 2, "--swivels", 3, "--speed-time", 1, "--json")
+    assert process.returncode == 0, process.stderr
+    result = result_of(process)
+    outcomes = result["planar_against_featherstone"]
+    assert outcomes["mean_difference_m"]["median"] < outcomes["displacement_m"]["median"]
+    assert result["timing"]["planar_over_featherstone"]["pushing_one"] > 1.0
+
+
+def test_unknown_caster_models_are_refused(case_base):
+    process = casepush("push", "--object", "office_chair", "--case-base", case_base,
+                       "--caster-model", "flat", "--json")
+    assert process.returncode == 2
+    assert "featherstone or planar" in result_of(process)["error"]

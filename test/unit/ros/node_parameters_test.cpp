@@ -93,6 +93,16 @@ TEST(NodeParameters, refusesBadObjectLists) {
   EXPECT_TRUE(contains(problems(loadPerceptionNodeParameters, pose), "'xy' is no valid entry"));
 }
 
+TEST(NodeParameters, simulatorTakesACasterModel) {
+  XmlRpcValue values = office();
+  values["caster_model"] = std::string("planar");
+  const SimNodeParameters parameters =
+      loadSimNodeParameters(ParameterReader(values, "node"), Catalog::standard());
+  EXPECT_EQ(parameters.simulator.caster_model, CasterModel::kPlanar);
+  values["caster_model"] = std::string("flat");
+  EXPECT_TRUE(contains(problems(loadSimNodeParameters, values), "there is no \"flat\""));
+}
+
 TEST(NodeParameters, boundsOfTheCoreApply) {
   XmlRpcValue values = office();
   values["push"]["alpha"] = 2.0;
