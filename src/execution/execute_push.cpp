@@ -6,8 +6,8 @@
 #include "approach_motion.h"
 #include "casepush/cases/outcome_statistics.h"
 #include "casepush/common/check.h"
+#include "casepush/common/violations.h"
 #include "push_recorder.h"
-#include "violations.h"
 
 namespace casepush {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
+#include "casepush/common/violations.h"
 #include "casepush/planning/prepared_cases.h"
 #include "coverage.h"
 #include "failure_tally.h"
 #include "push_candidates.h"
-#include "violations.h"
 
 namespace casepush {
 namespace {

@@ -360,9 +360,7 @@ PushTask::PushTask(PushTaskGoal goal, RobotModel robot, PushTaskServices service
   options.validate();
   data_ = std::make_unique<Data>(std::move(goal), std::move(robot), std::move(services), options);
   data_->progress.phase = "look";
-  const PushTaskGoal& g = data_->goal;
-  if (!g.map_T_goal.isFinite() || !(g.tolerance.position_m > 0.0) || !(g.tolerance.yaw_rad > 0.0) ||
-      !(g.time_limit_s > 0.0)) {
+  if (!isSensible(data_->goal)) {
     data_->end(PushTaskStatus::kInvalidGoal,
                "the goal pose must be finite, tolerances and time limit positive");
   }

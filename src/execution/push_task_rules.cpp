@@ -7,7 +7,7 @@
 
 #include "casepush/common/input_error.h"
 #include "casepush/common/random.h"
-#include "violations.h"
+#include "casepush/common/violations.h"
 
 namespace casepush {
 namespace {

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "casepush/common/violations.h"
 #include "casepush/execution/execute_push.h"
-#include "violations.h"
 
 namespace casepush {
 namespace {
@@ -39,17 +38,16 @@ double trapezoidHeight(double t, double rate, double duration) {
 }
 
 void validate(const PushConfiguration& configuration, const RobotLimits& limits, double period_s) {
-  constexpr double kLeast = std::numeric_limits<double>::min();
   Violations violations;
   const Pose2& start = configuration.object_T_robot;
   violations.require("object_T_robot.x", start.x(), -100.0, 100.0);
   violations.require("object_T_robot.y", start.y(), -100.0, 100.0);
   violations.require("object_T_robot.yaw", start.yaw(), -M_PI, M_PI);
   violations.require("direction_rad", configuration.direction_rad, -2.0 * M_PI, 2.0 * M_PI);
-  violations.require("speed_mps", configuration.speed_mps, kLeast, limits.max_speed_mps);
+  violations.requirePositive("speed_mps", configuration.speed_mps, limits.max_speed_mps);
   violations.require("yaw_rate_rps", configuration.yaw_rate_rps, -limits.max_yaw_rate_rps,
                      limits.max_yaw_rate_rps);
-  violations.require("duration_s", configuration.duration_s, kLeast, kLongestS);
+  violations.requirePositive("duration_s", configuration.duration_s, kLongestS);
   violations.require("period_s", period_s, 1e-3, 10.0);
   violations.throwIfAny("push configuration");
 }

@@ -38,15 +38,6 @@ class WorkingCases {
   const PushRunOptions& options_;
 };
 
-std::map<std::string, ObjectModel> modelsByName(const Simulator& simulator) {
-  std::map<std::string, ObjectModel> models;
-  for (const ObjectPlacement& placement : simulator.world().objects) {
-    const ObjectModel& model = simulator.object(placement.id);
-    models.emplace(model.name, model);
-  }
-  return models;
-}
-
 }  // namespace
 
 DirectPlanClient::DirectPlanClient(const PushPlanner& planner,
@@ -67,7 +58,7 @@ PushRunResult runPushTask(const Catalog& catalog, const PushProblem& problem,
                           const std::function<void(const PushTask&)>& watch) {
   ClosedLoop loop(catalog, problem.world, options.lab);
   const PushPlanner planner(std::move(map), loop.simulator().robot(),
-                            modelsByName(loop.simulator()), options.planner);
+                            catalog.objectsIn(problem.world), options.planner);
   WorkingCases working(std::move(cases), options);
   const auto current_cases = [&working] { return working.all(); };
   DirectPlanClient plans(planner, current_cases);

@@ -8,6 +8,7 @@
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
 #include "casepush/common/random.h"
+#include "casepush/common/violations.h"
 #include "casepush/world/shadow.h"
 #include "furniture_kind.h"
 
@@ -215,15 +216,10 @@ class RoomGenerator {
 }  // namespace
 
 void RoomOptions::validate() const {
-  std::ostringstream violations;
-  const auto require = [&](const char* key, double value, double low, double high) {
-    if (value >= low && value <= high) return;
-    violations << (violations.tellp() > 0 ? "; " : "") << key << " is " << value << ", must be in ["
-               << low << ", " << high << "]";
-  };
-  require("size", size_m, 2.0, 100.0);
-  require("density", density, 0.0, 0.5);
-  if (!violations.str().empty()) throw InputError("room options", violations.str());
+  Violations violations;
+  violations.require("size", size_m, 2.0, 100.0);
+  violations.require("density", density, 0.0, 0.5);
+  violations.throwIfAny("room options");
 }
 
 WorldModel generateRoom(const Catalog& catalog, const RoomOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "casepush/common/input_error.h"
 
@@ -39,6 +40,16 @@ RobotModel Catalog::robot(const std::string& name_or_file) const {
 
 WorldModel Catalog::world(const std::string& name_or_file) const {
   return loadWorldModel(find("worlds", kYaml, name_or_file));
+}
+
+std::map<std::string, ObjectModel> Catalog::objectsIn(const WorldModel& world) const {
+  std::map<std::string, ObjectModel> models;
+  for (const ObjectPlacement& placement : world.objects) {
+    ObjectModel model = object(placement.model);
+    std::string name = model.name;
+    models.emplace(std::move(name), std::move(model));
+  }
+  return models;
 }
 
 std::vector<std::string> Catalog::objectNames() const { return names("objects", kUrdf); }

@@ -5,10 +5,10 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "casepush/common/input_error.h"
+#include "casepush/common/violations.h"
 #include "object_track.h"
 
 namespace casepush {
@@ -41,27 +41,19 @@ TrackOptions trackOptions(const PoseTrackerOptions& options) {
 }  // namespace
 
 void PoseTrackerOptions::validate() const {
-  std::ostringstream violations;
-  const auto require = [&violations](const char* key, double value, double low, double high) {
-    if (!(value >= low && value <= high)) {
-      violations << (violations.tellp() > 0 ? "; " : "") << key << " is " << value
-                 << ", must be in [" << low << ", " << high << "]";
-    }
-  };
-  require("acceleration_noise_mps2", acceleration_noise_mps2, 0.01, 100.0);
-  require("yaw_acceleration_noise_rps2", yaw_acceleration_noise_rps2, 0.01, 100.0);
-  require("gate_p_value", gate_p_value, 1e-12, 0.1);
-  require("reacquire_after", reacquire_after, 1, 1000);
-  require("moving_speed_mps", moving_speed_mps, 0.001, 1.0);
-  require("moving_yaw_rate_rps", moving_yaw_rate_rps, 0.001, 1.0);
-  require("forget_after_s", forget_after_s, 0.1, 1e6);
-  require("localisation_sigma_m", localisation_sigma_m, 0.0, 1.0);
-  require("localisation_sigma_rad", localisation_sigma_rad, 0.0, 1.0);
-  require("upright_sigma_m", upright_sigma_m, 0.001, 1.0);
-  require("upright_sigma_rad", upright_sigma_rad, 0.001, 1.0);
-  if (violations.tellp() > 0) {
-    throw InputError("pose tracker options", violations.str());
-  }
+  Violations violations;
+  violations.require("acceleration_noise_mps2", acceleration_noise_mps2, 0.01, 100.0);
+  violations.require("yaw_acceleration_noise_rps2", yaw_acceleration_noise_rps2, 0.01, 100.0);
+  violations.require("gate_p_value", gate_p_value, 1e-12, 0.1);
+  violations.require("reacquire_after", reacquire_after, 1, 1000);
+  violations.require("moving_speed_mps", moving_speed_mps, 0.001, 1.0);
+  violations.require("moving_yaw_rate_rps", moving_yaw_rate_rps, 0.001, 1.0);
+  violations.require("forget_after_s", forget_after_s, 0.1, 1e6);
+  violations.require("localisation_sigma_m", localisation_sigma_m, 0.0, 1.0);
+  violations.require("localisation_sigma_rad", localisation_sigma_rad, 0.0, 1.0);
+  violations.require("upright_sigma_m", upright_sigma_m, 0.001, 1.0);
+  violations.require("upright_sigma_rad", upright_sigma_rad, 0.001, 1.0);
+  violations.throwIfAny("pose tracker options");
 }
 
 struct PoseTracker::Data {

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
+#include <limits>
 #include <utility>
 
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
+#include "casepush/common/violations.h"
 #include "plan_request.h"
 #include "plan_search.h"
 
@@ -111,33 +112,22 @@ struct PushPlanner::Data {
 };
 
 void PushPlannerOptions::validate() const {
-  std::ostringstream violations;
-  const auto require = [&violations](bool ok, const char* key, double value, const char* bound) {
-    if (!ok) {
-      violations << (violations.tellp() > 0 ? "; " : "") << key << " is " << value << ", must be "
-                 << bound;
-    }
-  };
-  require(goal_bias >= 0.0 && goal_bias <= 1.0, "goal_bias", goal_bias, "in [0, 1]");
-  require(max_nodes >= 1 && max_nodes <= 10000000, "max_nodes", max_nodes, "in [1, 10000000]");
-  require(zeta >= 0.0 && zeta <= 10.0, "zeta", zeta, "in [0, 10]");
-  require(object_margin_m >= 0.0 && object_margin_m <= 1.0, "object_margin_m", object_margin_m,
-          "in [0, 1]");
-  require(robot_margin_m >= 0.0 && robot_margin_m <= 1.0, "robot_margin_m", robot_margin_m,
-          "in [0, 1]");
-  require(solutions >= 1, "solutions", solutions, "at least 1");
-  require(improvement_extensions >= 0, "improvement_extensions", improvement_extensions,
-          "at least 0");
-  require(spacing_m > 0.0 && spacing_m <= 1.0, "spacing_m", spacing_m, "in (0, 1]");
-  require(selection_radius_m >= 0.0 && selection_radius_m <= 5.0, "selection_radius_m",
-          selection_radius_m, "in [0, 5]");
-  require(time.drive_speed_mps > 0.0, "time.drive_speed_mps", time.drive_speed_mps, "positive");
-  require(time.turn_rate_rps > 0.0, "time.turn_rate_rps", time.turn_rate_rps, "positive");
-  require(time.clearance_m >= 0.0, "time.clearance_m", time.clearance_m, "at least 0");
-  require(time.handling_s >= 0.0, "time.handling_s", time.handling_s, "at least 0");
-  if (violations.tellp() > 0) {
-    throw InputError("push planner options", violations.str());
-  }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Violations violations;
+  violations.require("goal_bias", goal_bias, 0.0, 1.0);
+  violations.require("max_nodes", max_nodes, 1, 10000000);
+  violations.require("zeta", zeta, 0.0, 10.0);
+  violations.require("object_margin_m", object_margin_m, 0.0, 1.0);
+  violations.require("robot_margin_m", robot_margin_m, 0.0, 1.0);
+  violations.require("solutions", solutions, 1, kInfinity);
+  violations.require("improvement_extensions", improvement_extensions, 0, kInfinity);
+  violations.requirePositive("spacing_m", spacing_m, 1.0);
+  violations.require("selection_radius_m", selection_radius_m, 0.0, 5.0);
+  violations.requirePositive("time.drive_speed_mps", time.drive_speed_mps, kInfinity);
+  violations.requirePositive("time.turn_rate_rps", time.turn_rate_rps, kInfinity);
+  violations.require("time.clearance_m", time.clearance_m, 0.0, kInfinity);
+  violations.require("time.handling_s", time.handling_s, 0.0, kInfinity);
+  violations.throwIfAny("push planner options");
 }
 
 PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,

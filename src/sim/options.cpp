@@ -1,28 +1,8 @@
-#include <cmath>
-#include <sstream>
-
 #include "casepush/common/input_error.h"
+#include "casepush/common/violations.h"
 #include "casepush/sim/simulator.h"
 
 namespace casepush {
-namespace {
-
-class Violations {
- public:
-  void require(const char* key, double value, double low, double high) {
-    if (std::isfinite(value) && value >= low && value <= high) return;
-    text_ << (text_.tellp() > 0 ? "; " : "") << key << " is " << value << ", must be in [" << low
-          << ", " << high << "]";
-  }
-  void raise() const {
-    if (!text_.str().empty()) throw InputError("simulator options", text_.str());
-  }
-
- private:
-  std::ostringstream text_;
-};
-
-}  // namespace
 
 const char* toString(CasterModel model) {
   return model == CasterModel::kPlanar ? "planar" : "featherstone";
@@ -43,7 +23,7 @@ void SimulatorOptions::validate() const {
   violations.require("localisation_sigma_m", localisation_sigma_m, 0.0, 1.0);
   violations.require("localisation_sigma_rad", localisation_sigma_rad, 0.0, 1.0);
   violations.require("localisation_correlation_s", localisation_correlation_s, 0.001, 1e6);
-  violations.raise();
+  violations.throwIfAny("simulator options");
 }
 
 }  // namespace casepush

@@ -31,15 +31,6 @@ PlanRequest makeRequest(const Task& task, const PlanArguments& arguments) {
   return request;
 }
 
-std::map<std::string, ObjectModel> loadModels(const Task& task) {
-  std::map<std::string, ObjectModel> models;
-  for (const ObjectPlacement& placement : task.problem.world.objects) {
-    ObjectModel model = task.catalog.object(placement.model);
-    models.emplace(model.name, model);
-  }
-  return models;
-}
-
 /// Wrong from the start, in contrast to a search without success.
 bool isBadRequest(PlanStatus status) {
   switch (status) {
@@ -63,7 +54,7 @@ int plan(const PlanArguments& arguments) {
     options.goal_bias = 0.95;
   }
   const PushPlanner planner(task.map, task.catalog.robot(task.problem.world.robot),
-                            loadModels(task), options);
+                            task.catalog.objectsIn(task.problem.world), options);
   const PlanRequest request = makeRequest(task, arguments);
   const PlanResult result = planner.plan(request, task.cases);
   if (isBadRequest(result.status)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ class Catalog {
   RobotModel robot(const std::string& name_or_file) const;
   WorldModel world(const std::string& name_or_file) const;
 
+  /// Every kind of object that a world holds, by the model's own name.
+  /// @throws InputError as object() does.
+  std::map<std::string, ObjectModel> objectsIn(const WorldModel& world) const;
+
   std::vector<std::string> objectNames() const;
   std::vector<std::string> robotNames() const;
   std::vector<std::string> worldNames() const;
@@ -41,7 +46,8 @@ class Catalog {
 /// Sees to it that a world holds an object, and returns the id of that instance.
 ///
 /// `object` is an id in the world, or an object by name or file. If the world holds none of that
-/// kind, it takes the place of the first object, as `<name>_1`. Empty: the first object of the world.
+/// kind, it takes the place of the first object, as `<name>_1`. Empty: the first object of the
+/// world.
 /// @throws InputError if the world holds no object, or the object is unknown or bad.
 std::string placeObject(WorldModel& world, const Catalog& catalog, const std::string& object);
 

@@ -41,6 +41,20 @@ TEST_F(CatalogTest, findsByNameAndByFile) {
   EXPECT_EQ(catalog.object(file).name, "other");
 }
 
+TEST_F(CatalogTest, loadsEveryKindOfObjectInAWorldOnceByItsOwnName) {
+  const std::string file = folder_.write("elsewhere/other.urdf", smallCartUrdf()).string();
+  folder_.write("elsewhere/other.yaml", smallCartYaml());
+  WorldModel world;
+  for (const std::string& model : {std::string("cart"), file, std::string("cart")}) {
+    world.objects.emplace_back();
+    world.objects.back().model = model;
+  }
+  const std::map<std::string, ObjectModel> models = Catalog(folder_.path()).objectsIn(world);
+  ASSERT_EQ(models.size(), 2u);
+  EXPECT_EQ(models.at("cart").name, "cart");
+  EXPECT_EQ(models.at("other").name, "other");
+}
+
 TEST_F(CatalogTest, saysWhatThereIsWhenANameIsUnknown) {
   const Catalog catalog(folder_.path());
   EXPECT_EQ(
