@@ -10,16 +10,6 @@ constexpr double kPoseHistoryS = 1.0;
 constexpr double kLookAfterPlacingS = 0.3;
 constexpr double kLookLimitS = 1.5;
 
-std::map<std::string, ObjectModel> loadModels(const Catalog& catalog, const WorldModel& world) {
-  std::map<std::string, ObjectModel> models;
-  for (const ObjectPlacement& placement : world.objects) {
-    if (models.count(placement.model) == 0) {
-      models.emplace(placement.model, catalog.object(placement.model));
-    }
-  }
-  return models;
-}
-
 std::vector<TrackedObject> trackedObjects(const Simulator& simulator) {
   std::vector<TrackedObject> tracked;
   for (const ObjectPlacement& placement : simulator.world().objects) {
@@ -32,7 +22,7 @@ std::vector<TrackedObject> trackedObjects(const Simulator& simulator) {
 
 ClosedLoop::ClosedLoop(const Catalog& catalog, const WorldModel& world, LabOptions options)
     : options_(options),
-      simulator_(world, catalog.robot(world.robot), loadModels(catalog, world), options.simulator),
+      simulator_(world, catalog.robotOf(world), catalog.objectsOf(world), options.simulator),
       tracked_(trackedObjects(simulator_)),
       tracker_(std::make_unique<PoseTracker>(tracked_, options.tracker)) {
   for (const CameraModel& camera : simulator_.robot().cameras) {

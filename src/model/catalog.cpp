@@ -42,14 +42,33 @@ WorldModel Catalog::world(const std::string& name_or_file) const {
   return loadWorldModel(find("worlds", kYaml, name_or_file));
 }
 
-std::map<std::string, ObjectModel> Catalog::objectsIn(const WorldModel& world) const {
+std::map<std::string, ObjectModel> Catalog::objectsOf(const WorldModel& world) const {
   std::map<std::string, ObjectModel> models;
   for (const ObjectPlacement& placement : world.objects) {
-    ObjectModel model = object(placement.model);
-    std::string name = model.name;
-    models.emplace(std::move(name), std::move(model));
+    if (models.count(placement.model) > 0) continue;
+    try {
+      models.emplace(placement.model, object(placement.model));
+    } catch (const InputError& error) {
+      throw InputError(world.where() + ": object " + placement.id + ": model", error.what());
+    }
   }
   return models;
+}
+
+std::map<std::string, ObjectModel> Catalog::objectsIn(const WorldModel& world) const {
+  std::map<std::string, ObjectModel> models;
+  for (auto& [name, model] : objectsOf(world)) {
+    models.emplace(model.name, model);
+  }
+  return models;
+}
+
+RobotModel Catalog::robotOf(const WorldModel& world) const {
+  try {
+    return robot(world.robot);
+  } catch (const InputError& error) {
+    throw InputError(world.where() + ": robot: model", error.what());
+  }
 }
 
 std::vector<std::string> Catalog::objectNames() const { return names("objects", kUrdf); }
@@ -109,6 +128,7 @@ std::string placeObject(WorldModel& world, const Catalog& catalog, const std::st
   ObjectPlacement& first = world.objects.front();
   first.model = object;
   first.id = wanted + "_1";
+  first.load.reset();
   return first.id;
 }
 

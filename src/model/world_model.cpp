@@ -1,5 +1,6 @@
 #include "casepush/model/world_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -20,6 +21,7 @@ class WorldReader {
   explicit WorldReader(const std::filesystem::path& file)
       : reader_(YamlReader::fromFile(file)), folder_(file.parent_path()) {
     world_.name = file.stem().string();
+    world_.file = file.string();
     names_.insert("robot");
   }
 
@@ -116,11 +118,32 @@ class WorldReader {
   void readObject(YamlReader& reader) {
     ObjectPlacement object;
     object.id = takeName(reader, "id");
+    checkObjectId(object.id, reader.where("id"));
     object.model = reader.text("model");
     object.map_T_object = readPoseInside(reader);
     object.tag_offset = reader.integer("tag_offset", 0, 586, 0);
+    if (std::optional<YamlReader> load = reader.optionalChild("load")) {
+      object.load = readLoad(*load);
+    }
     reader.finish();
     world_.objects.push_back(std::move(object));
+  }
+
+  /// Whether the object can carry it there is found out when both are put together.
+  static Load readLoad(YamlReader& reader) {
+    Load load;
+    load.mass_kg = reader.number("mass_kg", 0.0, kLargestLoad_kg);
+    const std::vector<double> xy_m = reader.numbers("xy", 2);
+    load.object_p_centre_m << xy_m[0], xy_m[1];
+    if (reader.has("height_m")) {
+      load.height_m = reader.number("height_m", 0.0, kLargestHeight_m);
+    }
+    if (reader.has("size_m")) {
+      const std::vector<double> size_m = reader.numbers("size_m", 3);
+      load.size_m << size_m[0], size_m[1], size_m[2];
+    }
+    reader.finish();
+    return load;
   }
 
   void readRobot(YamlReader reader) {
@@ -160,6 +183,27 @@ class WorldReader {
 bool WorldModel::contains(const Pose2& map_T_x) const {
   return map_T_x.isFinite() && map_T_x.x() >= min_m.x() && map_T_x.x() <= max_m.x() &&
          map_T_x.y() >= min_m.y() && map_T_x.y() <= max_m.y();
+}
+
+std::string WorldModel::where() const { return file.empty() ? "world " + name : file; }
+
+void checkObjectId(const std::string& id, const std::string& where) {
+  constexpr std::size_t kLongest = 64;
+  const auto isPlain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  const bool good = !id.empty() && id.size() <= kLongest && isPlain(id.front()) &&
+                    std::all_of(id.begin(), id.end(), [&](char c) {
+                      return isPlain(c) || c == '_' || c == '-' || c == '.';
+                    });
+  if (!good) {
+    std::string shown = id.substr(0, kLongest);  // On one line, whatever is in it.
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    throw InputError(where, "'" + shown +
+                                "' is no good id; must be 1 to 64 letters, digits, '_', '-' or "
+                                "'.', the first a letter or digit");
+  }
 }
 
 WorldModel loadWorldModel(const std::filesystem::path& yaml_file) {

@@ -69,6 +69,12 @@ std::string poseText(const Pose2& pose) {
   return "xy: " + list(pose.position()) + ", yaw_deg: " + text(yaw_deg);
 }
 
+std::string loadText(const Load& load) {
+  return "{mass_kg: " + text(load.mass_kg) + ", xy: " + list(load.object_p_centre_m) +
+         (load.height_m ? ", height_m: " + text(*load.height_m) : "") +
+         ", size_m: " + list(load.size_m) + "}";
+}
+
 std::string boxText(const StaticBox& box) {
   const Eigen::Matrix3d& rotation = box.map_T_box.linear();
   CASEPUSH_CHECK((rotation.col(2) - Eigen::Vector3d::UnitZ()).norm() < 1e-9,
@@ -94,7 +100,8 @@ std::string worldYaml(const WorldModel& world) {
        << "objects:\n";
   for (const ObjectPlacement& object : world.objects) {
     yaml << "  - {id: " << quoted(object.id) << ", model: " << quoted(object.model) << ", "
-         << poseText(object.map_T_object) << ", tag_offset: " << object.tag_offset << "}\n";
+         << poseText(object.map_T_object) << ", tag_offset: " << object.tag_offset
+         << (object.load ? ", load: " + loadText(*object.load) : "") << "}\n";
   }
   if (world.objects.empty()) {
     yaml << "  []\n";

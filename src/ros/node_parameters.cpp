@@ -208,10 +208,8 @@ SimNodeParameters loadSimNodeParameters(ParameterReader reader, const Catalog& c
     if (!object.empty()) {
       placeObject(parameters.world, catalog, object);
     }
-    parameters.robot = catalog.robot(parameters.world.robot);
-    for (const ObjectPlacement& placement : parameters.world.objects) {
-      parameters.models.emplace(placement.model, catalog.object(placement.model));
-    }
+    parameters.robot = catalog.robotOf(parameters.world);
+    parameters.models = catalog.objectsOf(parameters.world);
   });
   reader.finish();
   return parameters;

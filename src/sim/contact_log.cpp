@@ -22,31 +22,40 @@ std::string describeOverlap(const ContactSide& a, const ContactSide& b) {
   return nameOf(swap ? b : a) + " overlaps " + nameOf(swap ? a : b);
 }
 
-void ContactLog::add(const ContactSide& a, const ContactSide& b, double impulse_ns) {
+void ContactLog::add(const ContactSide& a, const ContactSide& b, double impulse_ns,
+                     const Eigen::Vector3d& map_point) {
   for (Entry& entry : entries_) {
     if ((isSame(entry.a, a) && isSame(entry.b, b)) || (isSame(entry.a, b) && isSame(entry.b, a))) {
       entry.impulse_ns += impulse_ns;
+      entry.moment += impulse_ns * map_point;
       return;
     }
   }
-  entries_.push_back({a, b, impulse_ns});
+  entries_.push_back({a, b, impulse_ns, impulse_ns * map_point});
 }
 
-std::vector<ContactReport> ContactLog::take() {
+void ContactLog::forgetTags() {
   // Several shapes may share the name of a part, so entries are summed once more.
-  std::map<std::tuple<std::string, std::string, std::string, std::string>, double> sums;
   for (const Entry& entry : entries_) {
     const bool swap = entry.b.tag->body < entry.a.tag->body;
     const ContactSide& a = swap ? entry.b : entry.a;
     const ContactSide& b = swap ? entry.a : entry.b;
-    sums[{a.tag->body, a.part(), b.tag->body, b.part()}] += entry.impulse_ns;
+    Sum& sum = sums_[{a.tag->body, a.part(), b.tag->body, b.part()}];
+    sum.impulse_ns += entry.impulse_ns;
+    sum.moment += entry.moment;
   }
   entries_.clear();
+}
+
+std::vector<ContactReport> ContactLog::take() {
+  forgetTags();
   std::vector<ContactReport> reports;
-  for (const auto& [names, impulse_ns] : sums) {
+  for (const auto& [names, sum] : sums_) {
     const auto& [body_a, part_a, body_b, part_b] = names;
-    reports.push_back({body_a, part_a, body_b, part_b, impulse_ns});
+    reports.push_back(
+        {body_a, part_a, body_b, part_b, sum.impulse_ns, sum.moment / sum.impulse_ns});
   }
+  sums_.clear();
   return reports;
 }
 

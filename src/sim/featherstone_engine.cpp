@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bullet_conversions.h"
+
 namespace casepush::sim {
 namespace {
 
@@ -69,7 +71,9 @@ void FeatherstoneEngine::readContacts(ContactLog& contacts) {
       const btManifoldPoint& point = manifold.getContactPoint(i);
       if (point.m_appliedImpulse <= 0.0) continue;
       if (!on_floor) {
-        contacts.add({&a, point.m_index0}, {&b, point.m_index1}, point.m_appliedImpulse);
+        contacts.add(
+            {&a, point.m_index0}, {&b, point.m_index1}, point.m_appliedImpulse,
+            toEigen(btVector3(0.5 * (point.getPositionWorldOnA() + point.getPositionWorldOnB()))));
       } else if (wheel.wheel >= 0) {
         wheel_impulse_ns_[static_cast<std::size_t>(wheel.object)]
                          [static_cast<std::size_t>(wheel.wheel)] += point.m_appliedImpulse;

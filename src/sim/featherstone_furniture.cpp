@@ -170,8 +170,9 @@ double FeatherstoneFurniture::mechanicalEnergyJ() const {
 }
 
 btTransform FeatherstoneFurniture::map_T_com(int body) const {
-  return body == 0 ? body_->getBaseWorldTransform()
-                   : body_->getLink(body - 1).m_cachedWorldTransform;
+  // The transforms that Bullet keeps of links are those before the last step.
+  return btTransform(body_->localFrameToWorld(body - 1, btMatrix3x3::getIdentity()),
+                     body_->localPosToWorld(body - 1, btVector3(0, 0, 0)));
 }
 
 std::vector<Eigen::Isometry3d> FeatherstoneFurniture::map_T_links() const {

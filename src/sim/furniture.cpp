@@ -29,6 +29,18 @@ FurnitureState stateAtRest(const FurnitureBlueprint& blueprint, const Pose2& map
   return state;
 }
 
+FurnitureState carriedOver(const FurnitureState& state, const FurnitureBlueprint& from,
+                           const FurnitureBlueprint& to) {
+  FurnitureState result = state;
+  const Eigen::Isometry3d com_T_root = from.bodies[0].mass.root_T_com.inverse();
+  result.map_T_base =
+      state.map_T_base * toBullet(Eigen::Isometry3d(com_T_root * to.bodies[0].mass.root_T_com));
+  const btVector3 arm = result.map_T_base.getOrigin() - state.map_T_base.getOrigin();
+  result.base_velocity_mps += state.base_omega_rps.cross(arm);
+  for (double& load_n : result.wheel_load_n) load_n *= to.mass_kg / from.mass_kg;
+  return result;
+}
+
 double surfaceFriction(const FurnitureBlueprint& blueprint, const BodyBlueprint& body,
                        const Floor& floor) {
   const bool rolls = !blueprint.wheel_radius_m.empty();

@@ -29,6 +29,11 @@ struct FurnitureState {
 FurnitureState stateAtRest(const FurnitureBlueprint& blueprint, const Pose2& map_T_object,
                            Random& random);
 
+/// The same motion, as a state of the same object with another load: positions and velocities of
+/// all its points stay, so what is put on it moves along with it from the start.
+FurnitureState carriedOver(const FurnitureState& state, const FurnitureBlueprint& from,
+                           const FurnitureBlueprint& to);
+
 /// Coefficient of a body's surface; coefficients of two bodies in contact are multiplied, and the
 /// floor's is 1.
 double surfaceFriction(const FurnitureBlueprint& blueprint, const BodyBlueprint& body,

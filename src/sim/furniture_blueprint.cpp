@@ -84,18 +84,21 @@ void addBodyShape(const Mechanism& mechanism, const std::vector<int>& links, Bod
 
 }  // namespace
 
-FurnitureBlueprint makeBlueprint(const std::string& id, int index, const ObjectModel& model) {
+FurnitureBlueprint makeBlueprint(const std::string& id, int index, const ObjectModel& model,
+                                 std::optional<Load> load) {
   const Mechanism& mechanism = model.mechanism;
   FurnitureBlueprint result;
   result.id = id;
   result.model = &model;
-  result.mass_kg = mechanism.massKg();
+  if (load && load->mass_kg > 0.0) result.load = load;
+  result.mass_kg = mechanism.massKg() + (result.load ? result.load->mass_kg : 0.0);
   const std::vector<std::vector<int>> links_of_body = groupLinks(mechanism, result);
   markCasters(model.casters, result);
   bool touches_floor = false;
   for (std::size_t b = 0; b < result.bodies.size(); ++b) {
     BodyBlueprint& body = result.bodies[b];
-    body.mass = composeMass(mechanism, links_of_body[b]);
+    body.mass =
+        composeMass(mechanism, links_of_body[b], b == 0 ? result.load : std::optional<Load>());
     body.tag.kind = body.wheel >= 0 ? CollisionTag::Kind::kWheel : CollisionTag::Kind::kFurniture;
     body.tag.body = id;
     body.tag.object = index;

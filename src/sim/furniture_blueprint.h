@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,15 +35,18 @@ struct FurnitureBlueprint {
   std::vector<int> body_of_link;              ///< For each link of the mechanism.
   std::vector<Eigen::Isometry3d> com_T_link;  ///< From the body's centre of mass.
   std::vector<double> wheel_radius_m;         ///< For each caster.
-  double mass_kg = 0.0;
+  std::optional<Load> load;                   ///< On body 0, with its height.
+  double mass_kg = 0.0;                       ///< With the load.
 
   std::vector<std::unique_ptr<CompoundShape>> compounds;
   std::vector<std::unique_ptr<btCollisionShape>> wheel_shapes;
 };
 
 /// @param index  Number of the object in the world.
+/// @param load  As placedLoad() gives it; one without mass is none.
 /// @throws InputError if nothing of the object can touch the floor.
 /// @pre `model` outlives the result.
-FurnitureBlueprint makeBlueprint(const std::string& id, int index, const ObjectModel& model);
+FurnitureBlueprint makeBlueprint(const std::string& id, int index, const ObjectModel& model,
+                                 std::optional<Load> load = std::nullopt);
 
 }  // namespace casepush::sim

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "casepush/model/load.h"
 #include "casepush/model/mechanism.h"
 
 namespace casepush::sim {
@@ -16,7 +17,9 @@ struct MassProperties {
   Eigen::Matrix3d rootInertia() const;
 };
 
-/// Of links that are rigidly joined, at zero joint angles. @pre their mass is positive.
-MassProperties composeMass(const Mechanism& mechanism, const std::vector<int>& links);
+/// Of links that are rigidly joined, at zero joint angles, and of what lies on them.
+/// @pre their mass is positive; the load has a height.
+MassProperties composeMass(const Mechanism& mechanism, const std::vector<int>& links,
+                           const std::optional<Load>& load = std::nullopt);
 
 }  // namespace casepush::sim

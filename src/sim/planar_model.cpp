@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <variant>
 
 #include "casepush/common/input_error.h"
@@ -140,8 +141,14 @@ void checkStanding(const FurnitureBlueprint& blueprint, const PlanarModel& model
       shareLoad(points, model.mass_kg, moment, shares) &&
       std::count_if(shares.begin(), shares.end(), [](double n) { return n > 0.0; }) >= 3;
   if (!stands) {
-    throw InputError(blueprint.model->name,
-                     "the planar caster model needs three or more wheels or feet that bear load");
+    std::ostringstream text;
+    text << "the planar caster model needs three or more wheels or feet that bear load";
+    if (blueprint.load) {
+      text << "; with " << blueprint.load->mass_kg << " kg at ("
+           << blueprint.load->object_p_centre_m.x() << ", " << blueprint.load->object_p_centre_m.y()
+           << ") m it would tip over";
+    }
+    throw InputError(blueprint.model->name, text.str());
   }
 }
 

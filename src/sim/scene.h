@@ -26,14 +26,20 @@ struct SceneTag {
   TagMount mount;  ///< Its id includes the object's offset.
 };
 
-/// All of a world that stays the same whenever it is rebuilt: shapes, masses, names.
+/// All of a world that stays the same whenever it is rebuilt: shapes, masses, names. Only setLoad
+/// changes it.
 struct Scene {
-  /// @throws InputError if an id is used twice or a model is missing or unusable.
+  /// @throws InputError if an id is bad or used twice, a model is missing or unusable, or an object
+  /// cannot carry its load.
   Scene(WorldModel world, RobotModel robot, std::map<std::string, ObjectModel> models);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
   int objectIndex(const std::string& id) const;  ///< -1 if there is none.
+
+  /// Returns the former blueprint, which has to outlive every engine that was made with it.
+  /// @throws InputError at `where` if the object cannot carry the load.
+  FurnitureBlueprint setLoad(int object, const std::optional<Load>& load, const std::string& where);
 
   const WorldModel world;
   const RobotModel robot;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "bullet_conversions.h"
@@ -52,6 +53,13 @@ void checkPose(const WorldModel& world, const std::string& where, const Pose2& p
   throw InputError(where, what.str());
 }
 
+ObjectPlacement& placementOf(WorldModel& world, const std::string& id) {
+  for (ObjectPlacement& object : world.objects) {
+    if (object.id == id) return object;
+  }
+  throw InputError("simulator options: loads", world.where() + " holds no object \"" + id + "\"");
+}
+
 // Scales a twist into the limits; false if it was beyond them.
 bool clampTwist(const RobotLimits& limits, Twist2& twist) {
   constexpr double kTolerance = 1.0 + 1e-9;  // A norm of limited components may exceed by rounding.
@@ -98,10 +106,38 @@ struct Simulator::Data {
   }
 
   void start() {
+    const std::vector<sim::FurnitureBlueprint> former = restoreLoads();  // Until the run is gone.
     auto next = std::make_unique<Run>(scene, options);
     const auto overlap = next->physics->findOverlap(allBodies(scene));
-    if (overlap) throw InputError("world " + scene.world.name, *overlap);
+    if (overlap) throw InputError(scene.world.where(), *overlap);
     run = std::move(next);
+  }
+
+  std::vector<sim::FurnitureBlueprint> restoreLoads() {
+    std::vector<sim::FurnitureBlueprint> former;
+    for (const int object : changed_loads) {
+      const auto& placement = scene.world.objects[static_cast<std::size_t>(object)];
+      former.push_back(scene.setLoad(object, placement.load, placement.id));
+    }
+    changed_loads.clear();
+    return former;
+  }
+
+  void setLoad(int object, const Load& load) {
+    const auto i = static_cast<std::size_t>(object);
+    WorldState state = run->physics->state();
+    sim::FurnitureBlueprint former =
+        scene.setLoad(object, load, "load on " + scene.furniture[i].id);
+    state.furniture[i] = carriedOver(state.furniture[i], former, scene.furniture[i]);
+    try {
+      auto physics = std::make_unique<PhysicsWorld>(scene, state, stepOptions(options));
+      run->contacts.forgetTags();  // They end with the former blueprint.
+      run->physics = std::move(physics);
+    } catch (const InputError&) {
+      std::swap(scene.furniture[i], former);
+      throw;
+    }
+    changed_loads.insert(object);
   }
 
   double time() const { return static_cast<double>(run->steps) * options.step_s; }
@@ -120,17 +156,19 @@ struct Simulator::Data {
 
   Scene scene;
   SimulatorOptions options;
+  std::set<int> changed_loads;  // Objects whose load may not be the world's any more.
   std::unique_ptr<Run> run;
 };
 
 Simulator::Simulator(WorldModel world, RobotModel robot, std::map<std::string, ObjectModel> models,
                      SimulatorOptions options) {
   options.validate();
-  const std::string where = "world " + world.name + ": ";
+  const std::string where = world.where() + ": ";
   checkPose(world, where + kRobotId, world.map_T_robot);
   for (const ObjectPlacement& object : world.objects) {
     checkPose(world, where + object.id, object.map_T_object);
   }
+  for (const auto& [id, load] : options.loads) placementOf(world, id).load = load;
   data_ = std::make_unique<Data>(std::move(world), std::move(robot), std::move(models), options);
 }
 
@@ -211,6 +249,14 @@ void Simulator::setPoses(const std::map<std::string, Pose2>& map_T_bodies) {
     run.command = {};
     run.localisation.relocate(trueRobotPose());
   }
+}
+
+void Simulator::setLoad(const std::string& id, const Load& load) {
+  data_->setLoad(data_->objectIndex(id), load);
+}
+
+std::optional<Load> Simulator::load(const std::string& id) const {
+  return data_->scene.furniture[static_cast<std::size_t>(data_->objectIndex(id))].load;
 }
 
 void Simulator::reset(std::uint64_t seed) {

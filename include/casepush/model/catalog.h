@@ -25,9 +25,13 @@ class Catalog {
   RobotModel robot(const std::string& name_or_file) const;
   WorldModel world(const std::string& name_or_file) const;
 
-  /// Every kind of object that a world holds, by the model's own name.
-  /// @throws InputError as object() does.
+  /// Every kind of object that a world holds, by the name or file that the world uses.
+  /// @throws InputError as object() does, naming the world and its element, too.
+  std::map<std::string, ObjectModel> objectsOf(const WorldModel& world) const;
+  /// The same, by the model's own name.
   std::map<std::string, ObjectModel> objectsIn(const WorldModel& world) const;
+  /// @throws InputError as robot() does, naming the world, too.
+  RobotModel robotOf(const WorldModel& world) const;
 
   std::vector<std::string> objectNames() const;
   std::vector<std::string> robotNames() const;

@@ -7,6 +7,7 @@
 
 #include "casepush/common/pose2.h"
 #include "casepush/model/geometry.h"
+#include "casepush/model/load.h"
 
 namespace casepush {
 
@@ -25,15 +26,21 @@ struct Floor {
 
 /// One pushable object in a world.
 struct ObjectPlacement {
-  std::string id;     ///< Unique in the world, e.g. "chair_1".
+  std::string id;     ///< Unique in the world, e.g. "chair_1"; see checkObjectId().
   std::string model;  ///< Name or file of an ObjectModel.
   Pose2 map_T_object;
   int tag_offset = 0;  ///< Added to every tag id of the model, so that instances differ.
+  std::optional<Load> load = std::nullopt;  ///< What lies on it at the start.
 };
+
+/// @throws InputError at `where` unless the id is 1 to 64 letters, digits, '_', '-' or '.', the
+/// first a letter or digit: it becomes part of topics, files, and lines of text.
+void checkObjectId(const std::string& id, const std::string& where);
 
 /// A room: YAML file of config/worlds. Its map frame has z = 0 on the floor.
 struct WorldModel {
   std::string name;
+  std::string file;                   ///< It was read from; empty if it was made otherwise.
   Eigen::Vector2d min_m{-5.0, -5.0};  ///< Bounds of the map.
   Eigen::Vector2d max_m{5.0, 5.0};
   Floor floor;
@@ -46,6 +53,7 @@ struct WorldModel {
   std::optional<Pose2> goal;  ///< Of the first object, for demonstrations.
 
   bool contains(const Pose2& map_T_x) const;
+  std::string where() const;  ///< For messages: its file, or else "world" and its name.
 };
 
 /// @throws InputError naming file, element and reason; also if an object or the robot stands

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "casepush/common/pose2.h"
+#include "casepush/model/load.h"
 #include "casepush/model/object_model.h"
 #include "casepush/model/robot_model.h"
 #include "casepush/model/tag_detection.h"
@@ -36,6 +38,8 @@ struct SimulatorOptions {
   double localisation_sigma_m = 0.004;  ///< Bounded, correlated error of map_T_odom.
   double localisation_sigma_rad = 0.002;
   double localisation_correlation_s = 10.0;
+  /// By object id: on it at the start, in the place of what the world puts there.
+  std::map<std::string, Load> loads;
   void validate() const;  ///< @throws InputError listing every violation.
 };
 
@@ -45,7 +49,8 @@ struct ContactReport {
   std::string part_a;  ///< Link of it.
   std::string body_b;
   std::string part_b;
-  double impulse_ns = 0.0;  ///< Sum of normal impulses.
+  double impulse_ns = 0.0;                              ///< Sum of normal impulses.
+  Eigen::Vector3d map_point = Eigen::Vector3d::Zero();  ///< Mean place, weighted by impulse.
 };
 
 /// What the robot itself would report.
@@ -62,7 +67,8 @@ struct OdometryReading {
 /// Thread safety: none for one simulator; separate ones may run in separate threads.
 class Simulator {
  public:
-  /// @throws InputError if start poses overlap each other or a wall.
+  /// @throws InputError naming the world's file and the element: start poses that overlap each
+  /// other or a wall or lie outside, ids that are bad or taken, a load that an object cannot carry.
   Simulator(WorldModel world, RobotModel robot, std::map<std::string, ObjectModel> models,
             SimulatorOptions options);
   ~Simulator();
@@ -99,7 +105,15 @@ class Simulator {
   /// Several at once, so that they may trade places.
   void setPoses(const std::map<std::string, Pose2>& map_T_bodies);
 
-  /// Everything as at the start, with a new seed; time starts at 0.
+  /// Puts a load on an object in the place of the one it carries; 0 kg takes that away. Time goes
+  /// on, and so does all motion: the load has the object's velocity from the start.
+  /// @throws InputError if there is no such object or it cannot carry the load: see placedLoad(),
+  /// and the planar caster model refuses what would tip over (everything stays as it was).
+  void setLoad(const std::string& id, const Load& load);
+  /// What lies on an object now, with its height.
+  std::optional<Load> load(const std::string& id) const;
+
+  /// Everything as at the start, loads too, with a new seed; time starts at 0.
   void reset(std::uint64_t seed);
 
   const WorldModel& world() const;

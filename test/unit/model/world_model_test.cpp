@@ -55,6 +55,52 @@ TEST_F(LoadWorldModel, readsEverything) {
             1e-12);
 }
 
+TEST_F(LoadWorldModel, readsWhatLiesOnAnObject) {
+  const std::string where = "yaw_deg: -45, tag_offset: 10";
+  const auto with = [&](const std::string& load) {
+    return replaced(smallWorldYaml(), where, where + ", load: " + load);
+  };
+  const WorldModel room = load(with("{mass_kg: 40, xy: [0.1, -0.2]}"));
+  ASSERT_TRUE(room.objects[0].load);
+  EXPECT_EQ(room.objects[0].load->mass_kg, 40.0);
+  EXPECT_EQ(room.objects[0].load->object_p_centre_m, Eigen::Vector2d(0.1, -0.2));
+  EXPECT_FALSE(room.objects[0].load->height_m);
+  EXPECT_EQ(room.objects[0].load->size_m, Load().size_m);
+  EXPECT_FALSE(room.objects[1].load);
+  const WorldModel all =
+      load(with("{mass_kg: 5, xy: [0, 0], height_m: 0.7, size_m: [0.1, 0.2, 0.3]}"));
+  EXPECT_EQ(all.objects[0].load->height_m, 0.7);
+  EXPECT_EQ(all.objects[0].load->size_m, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(errorWith(where, where + ", load: {mass_kg: 81, xy: [0, 0]}"),
+            "objects[0].load.mass_kg: is 81; must be a number in [0, 80]");
+  EXPECT_EQ(errorWith(where, where + ", load: {mass_kg: nan, xy: [0, 0]}"),
+            "objects[0].load.mass_kg: is not finite; must be a number in [0, 80]");
+  EXPECT_EQ(errorWith(where, where + ", load: {mass_kg: 8}"),
+            "objects[0].load.xy: must be a list of 2 finite numbers");
+}
+
+TEST_F(LoadWorldModel, saysWhereItComesFrom) {
+  EXPECT_EQ(load(smallWorldYaml()).where(), (folder_.path() / "room.yaml").string());
+  WorldModel made;
+  made.name = "made";
+  EXPECT_EQ(made.where(), "world made");
+}
+
+TEST_F(LoadWorldModel, refusesIdsWithOddCharacters) {
+  const std::string rule =
+      "' is no good id; must be 1 to 64 letters, digits, '_', '-' or '.', the first a letter or "
+      "digit";
+  for (const char* id : {"cart 1", "cart/1", "/cart", "-cart", "Stühl", "a,b", "a'b", "~x", "$x"}) {
+    const std::string text = errorWith("id: cart_1", "id: \"" + std::string(id) + "\"");
+    EXPECT_EQ(text.rfind("objects[0].id: '", 0), 0U) << text;
+    EXPECT_NE(text.find(rule), std::string::npos) << text;
+  }
+  EXPECT_NE(errorWith("id: cart_1", "id: \"cart\\n1\""), "");
+  EXPECT_NE(errorWith("id: cart_1", "id: \"\""), "");
+  EXPECT_NE(errorWith("id: cart_1", "id: " + std::string(65, 'x')), "");
+  EXPECT_EQ(errorWith("id: cart_1", "id: Cart-1.b_" + std::string(50, 'x')), "");
+}
+
 TEST_F(LoadWorldModel, needsNeitherGoalNorFloorNorFurniture) {
   const WorldModel room =
       load("bounds: {min: [0, 0], max: [1, 1]}\nrobot: {model: bot, xy: [0.5, 0.5], yaw_deg: 0}\n");
@@ -167,6 +213,12 @@ class SaveWorldModel : public LoadWorldModel {
       EXPECT_EQ(a.objects[i].id, b.objects[i].id);
       EXPECT_EQ(a.objects[i].model, b.objects[i].model);
       EXPECT_EQ(a.objects[i].tag_offset, b.objects[i].tag_offset);
+      ASSERT_EQ(a.objects[i].load.has_value(), b.objects[i].load.has_value());
+      if (!a.objects[i].load) continue;
+      EXPECT_EQ(a.objects[i].load->mass_kg, b.objects[i].load->mass_kg);
+      EXPECT_EQ(a.objects[i].load->object_p_centre_m, b.objects[i].load->object_p_centre_m);
+      EXPECT_EQ(a.objects[i].load->height_m, b.objects[i].load->height_m);
+      EXPECT_EQ(a.objects[i].load->size_m, b.objects[i].load->size_m);
       EXPECT_TRUE(same(a.objects[i].map_T_object, b.objects[i].map_T_object)) << a.objects[i].id;
     }
     ASSERT_EQ(a.boxes.size(), b.boxes.size());
@@ -185,6 +237,13 @@ TEST_F(SaveWorldModel, givesBackEveryShippedWorldToTheLastBit) {
     const WorldModel world = catalog.world(name);
     expectSame(reloaded(world), world);
   }
+}
+
+TEST_F(SaveWorldModel, givesBackLoads) {
+  WorldModel world = load(smallWorldYaml());
+  world.objects[0].load = Load{40.0, {0.1, -0.3}, 0.7, {0.1, 0.2, 0.3}};
+  world.objects[1].load = Load{0.1, {0.0, 0.0}, std::nullopt, {0.3, 0.3, 0.2}};
+  expectSame(reloaded(world), world);
 }
 
 TEST_F(SaveWorldModel, givesBackOddNamesNumbersAndAngles) {

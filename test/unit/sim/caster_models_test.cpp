@@ -8,6 +8,7 @@
 #include "contact_log.h"
 #include "physics_world.h"
 #include "scene.h"
+#include "sim/motions.h"
 #include "sim/scenes.h"
 
 namespace casepush::sim {
@@ -17,17 +18,6 @@ StepOptions planar() {
   StepOptions options;
   options.caster_model = CasterModel::kPlanar;
   return options;
-}
-
-WorldState restingState(const Scene& scene, std::uint64_t seed) {
-  Random random(seed);
-  WorldState state;
-  state.robot = stateAtRest(scene.robot_blueprint, scene.world.map_T_robot);
-  for (std::size_t i = 0; i < scene.furniture.size(); ++i) {
-    state.furniture.push_back(
-        stateAtRest(scene.furniture[i], scene.world.objects[i].map_T_object, random));
-  }
-  return state;
 }
 
 Pose2 outcome(const Scene& scene, const WorldState& state, const StepOptions& options,

@@ -8,6 +8,7 @@
 #include "contact_log.h"
 #include "physics_world.h"
 #include "scene.h"
+#include "sim/motions.h"
 #include "sim/scenes.h"
 
 namespace casepush::sim {
@@ -32,28 +33,6 @@ class FurnitureModels : public testing::TestWithParam<CasterModel> {
 INSTANTIATE_TEST_SUITE_P(Models, FurnitureModels,
                          testing::Values(CasterModel::kFeatherstone, CasterModel::kPlanar),
                          modelName);
-
-WorldState restingState(const Scene& scene, std::uint64_t seed = 1) {
-  Random random(seed);
-  WorldState state;
-  state.robot = stateAtRest(scene.robot_blueprint, scene.world.map_T_robot);
-  for (std::size_t i = 0; i < scene.furniture.size(); ++i) {
-    state.furniture.push_back(
-        stateAtRest(scene.furniture[i], scene.world.objects[i].map_T_object, random));
-  }
-  return state;
-}
-
-// Joint order of the cart: swivel, axle, swivel, axle, ... With fixed wheels: axle, axle, ...
-void setRolling(FurnitureState& state, double speed_mps, double swivel_rad, double radius_m) {
-  state.base_velocity_mps = btVector3(speed_mps, 0, 0);
-  const bool swivels = state.joint_rad.size() == 8;
-  for (std::size_t i = 0; i < state.joint_rad.size(); ++i) {
-    const bool is_axle = !swivels || i % 2 == 1;
-    state.joint_rad[i] = is_axle ? 0.0 : swivel_rad;
-    state.joint_rps[i] = is_axle ? speed_mps / radius_m : 0.0;
-  }
-}
 
 double coastDistance(const test::CartOptions& cart, double lever_arm_m, double speed_mps,
                      const StepOptions& options) {
