@@ -8,6 +8,8 @@ add_message_files(FILES
   BodyPose.msg
   ExecutedPush.msg
   ExecutorState.msg
+  ObjectLoad.msg
+  ObjectLoadArray.msg
   ObjectPose.msg
   Octomap.msg
   Plan.msg
@@ -19,6 +21,7 @@ add_message_files(FILES
   PushableObject.msg
   PushableObjectArray.msg
   TrialPush.msg)
-add_service_files(FILES ExportCases.srv ImportCases.srv Reset.srv SetPoses.srv)
+add_service_files(FILES ExportCases.srv ImportCases.srv Reset.srv SetLoad.srv SetPoses.srv
+                  StepSimulation.srv)
 add_action_files(FILES ExecutePush.action LearnObject.action PlanPush.action PushObject.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)

@@ -282,6 +282,33 @@ nav_msgs::Odometry toMessage(const OdometryReading& reading) {
   return message;
 }
 
+ObjectLoad toMessage(const std::string& id, const Load& load) {
+  ObjectLoad message;
+  message.id = id;
+  message.mass = load.mass_kg;
+  message.centre.x = load.object_p_centre_m.x();
+  message.centre.y = load.object_p_centre_m.y();
+  message.centre.z = load.height_m.value_or(0.0);
+  message.size.x = load.size_m.x();
+  message.size.y = load.size_m.y();
+  message.size.z = load.size_m.z();
+  return message;
+}
+
+Load fromMessage(const ObjectLoad& message) {
+  Load load;
+  load.mass_kg = message.mass;
+  load.object_p_centre_m << message.centre.x, message.centre.y;
+  if (message.centre.z != 0.0) {
+    load.height_m = message.centre.z;
+  }
+  const Eigen::Vector3d size_m(message.size.x, message.size.y, message.size.z);
+  if (!size_m.isZero(0.0)) {
+    load.size_m = size_m;
+  }
+  return load;
+}
+
 BodyContactArray toMessage(const std::vector<ContactReport>& contacts, double stamp_s) {
   BodyContactArray message;
   message.header = mapHeader(stamp_s);
@@ -292,6 +319,9 @@ BodyContactArray toMessage(const std::vector<ContactReport>& contacts, double st
     contact.body_b = report.body_b;
     contact.part_b = report.part_b;
     contact.impulse = report.impulse_ns;
+    contact.point.x = report.map_point.x();
+    contact.point.y = report.map_point.y();
+    contact.point.z = report.map_point.z();
     message.contacts.push_back(contact);
   }
   return message;

@@ -200,6 +200,7 @@ SimNodeParameters loadSimNodeParameters(ParameterReader reader, const Catalog& c
   reader.check([&] { parameters.simulator.caster_model = casterModelFromString(caster_model); });
   reader.read("command_timeout", parameters.simulator.command_timeout_s);
   reader.read("real_time_factor", parameters.real_time_factor, 0.0, 1000.0);
+  reader.read("lock_step", parameters.lock_step);
   reader.read("max_sim_time", parameters.max_sim_time_s, 0.0, kUnbounded);
   reader.read("survey_resolution", parameters.survey_resolution_m, 0.01, 0.5);
   reader.check([&] { parameters.simulator.validate(); });

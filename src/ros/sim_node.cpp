@@ -5,9 +5,9 @@
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "casepush/common/input_error.h"
 #include "casepush/ros/conversions.h"
 #include "casepush/ros/names.h"
 
@@ -26,6 +26,7 @@ constexpr double kTrackingLagS = 0.07;
 // nodes while nobody commands.
 constexpr double kWaitCommandedS = kControlPeriodS;
 constexpr double kWaitIdleS = 0.001;
+constexpr double kClockPeriodS = 0.1;  // Of wall time, while time stands still.
 
 geometry_msgs::TransformStamped stamped(const std::string& parent, const std::string& child,
                                         double stamp_s, const geometry_msgs::Transform& transform) {
@@ -62,6 +63,8 @@ SimNode::SimNode(SimNodeParameters parameters, ros::NodeHandle handle)
                                                          names::kTrueObjects.queue_size);
   contacts_ =
       handle_.advertise<BodyContactArray>(names::kContacts.name, names::kContacts.queue_size);
+  true_loads_ = handle_.advertise<ObjectLoadArray>(names::kTrueLoads.name,
+                                                   names::kTrueLoads.queue_size, true);
   points_ = handle_.advertise<sensor_msgs::PointCloud2>(names::kPoints.name,
                                                         names::kPoints.queue_size, true);
   command_ = handle_.subscribe(names::kCommandVelocity.name, names::kCommandVelocity.queue_size,
@@ -70,8 +73,11 @@ SimNode::SimNode(SimNodeParameters parameters, ros::NodeHandle handle)
                                ros::TransportHints().tcpNoDelay());
   reset_ = handle_.advertiseService(names::kResetService, &SimNode::onReset, this);
   set_poses_ = handle_.advertiseService(names::kSetPoseService, &SimNode::onSetPoses, this);
+  set_load_ = handle_.advertiseService(names::kSetLoadService, &SimNode::onSetLoad, this);
+  step_ = handle_.advertiseService(names::kStepService, &SimNode::onStep, this);
   static_transforms_.sendTransform(cameraTransforms(parameters_.robot));
   publishSurvey();
+  publishLoads();
   restartPacing();
   diagnosed_ = SteadyClock::now();
 }
@@ -79,28 +85,56 @@ SimNode::SimNode(SimNodeParameters parameters, ros::NodeHandle handle)
 void SimNode::run() {
   const double end_s = parameters_.max_sim_time_s;
   while (ros::ok() && (end_s <= 0.0 || simulator_.time() < end_s)) {
-    advance();
-    command_arrived_ = false;
-    publishMotion();
-    publishSensors();
-    publishTruth();
-    ++period_;
-    waitForNodes();
+    if (parameters_.lock_step) {
+      standStill();
+    } else {
+      advance(stepsToPeriodEnd());
+      command_arrived_ = false;
+      waitForNodes();
+    }
   }
 }
 
-void SimNode::advance() {
+void SimNode::standStill() {
+  // Whoever comes late needs to hear the time once, too.
+  publishClock();
+  ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kClockPeriodS));
+}
+
+std::int64_t SimNode::stepsToPeriodEnd() const {
   // The control period is no whole number of physics steps: the number of steps varies by one.
-  next_period_s_ += kControlPeriodS;
-  while (simulator_.time() + 0.5 * simulator_.stepSeconds() < next_period_s_) {
-    simulator_.step();
+  const double end_s = static_cast<double>(period_ + 1) * kControlPeriodS;
+  const double steps = std::ceil((end_s - simulator_.time()) / simulator_.stepSeconds() - 0.5);
+  return std::max<std::int64_t>(0, static_cast<std::int64_t>(steps));
+}
+
+void SimNode::advance(std::int64_t steps) {
+  while (steps > 0 && ros::ok()) {
+    const std::int64_t to_end = stepsToPeriodEnd();
+    const std::int64_t now = std::min(steps, to_end);
+    simulator_.step(static_cast<int>(now));
+    steps -= now;
+    if (now == to_end) {
+      publishPeriod();
+    }
   }
 }
 
-void SimNode::publishMotion() {
+void SimNode::publishPeriod() {
+  publishClock();
+  publishMotion();
+  publishSensors();
+  publishTruth();
+  ++period_;
+}
+
+void SimNode::publishClock() {
   rosgraph_msgs::Clock clock;
   clock.clock = toRosTime(simulator_.time());
   clock_.publish(clock);
+}
+
+void SimNode::publishMotion() {
   const OdometryReading reading = simulator_.odometry();
   transforms_.sendTransform({stamped(names::kMapFrame, names::kOdomFrame, reading.stamp_s,
                                      toTransformMessage(reading.map_T_odom)),
@@ -135,6 +169,17 @@ void SimNode::publishTruth() {
     states.push_back(state);
   }
   true_objects_.publish(toMessage(states, simulator_.time()));
+}
+
+void SimNode::publishLoads() {
+  ObjectLoadArray message;
+  message.header.stamp = toRosTime(simulator_.time());
+  for (const ObjectPlacement& placement : simulator_.world().objects) {
+    if (const std::optional<Load> load = simulator_.load(placement.id)) {
+      message.loads.push_back(toMessage(placement.id, *load));
+    }
+  }
+  true_loads_.publish(message);
 }
 
 void SimNode::publishSurvey() {
@@ -177,59 +222,20 @@ void SimNode::restartPacing() {
   pacing_start_s_ = simulator_.time();
 }
 
-void SimNode::onCommand(const geometry_msgs::Twist& message) {
-  const Twist2 twist{message.linear.x, message.linear.y, message.angular.z};
-  if (!simulator_.setCommand(twist)) {
-    ++refused_commands_;
-    ROS_WARN_THROTTLE(1.0, "cmd_vel (%g, %g, %g) is not finite or beyond the robot's limits",
-                      twist.vx_mps, twist.vy_mps, twist.wz_rps);
-  }
-  command_arrived_ = true;
-  last_command_s_ = simulator_.time();
-}
-
-void SimNode::onObjects(const PushableObjectArray& message) {
-  last_objects_s_ = message.header.stamp.toSec();
-}
-
-bool SimNode::onReset(Reset::Request& request, Reset::Response& response) {
-  simulator_.reset(request.seed);
-  next_period_s_ = 0.0;
-  period_ = 0;
-  last_command_s_ = -1e9;
-  last_objects_s_ = -1e9;
-  restartPacing();
-  response.success = true;
-  return true;
-}
-
-bool SimNode::onSetPoses(SetPoses::Request& request, SetPoses::Response& response) {
-  try {
-    std::map<std::string, Pose2> poses;
-    for (const BodyPose& body : request.bodies) {
-      if (!poses.emplace(body.id, fromMessage(body.pose)).second) {
-        throw InputError("bodies", "two entries have the id " + body.id);
-      }
-    }
-    simulator_.setPoses(poses);
-    response.success = true;
-  } catch (const InputError& error) {
-    response.success = false;
-    response.message = error.what();
-  }
-  return true;
-}
-
 void SimNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const SteadyClock::time_point now = SteadyClock::now();
   const double wall_s = std::chrono::duration<double>(now - diagnosed_).count();
   const double factor = (simulator_.time() - diagnosed_s_) / std::max(wall_s, 1e-9);
   diagnosed_ = now;
   diagnosed_s_ = simulator_.time();
-  status.summaryf(diagnostic_msgs::DiagnosticStatus::OK, "%.1f times real time", factor);
+  if (parameters_.lock_step) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "in lock-step");
+  } else {
+    status.summaryf(diagnostic_msgs::DiagnosticStatus::OK, "%.1f times real time", factor);
+  }
   status.add("simulated time [s]", simulator_.time());
   status.add("commanded", isCommanded());
-  status.add("refused commands", refused_commands_);
+  status.add("commands ignored or clamped", refused_commands_);
 }
 
 }  // namespace casepush

@@ -60,17 +60,26 @@ ObjectPlacement& placementOf(WorldModel& world, const std::string& id) {
   throw InputError("simulator options: loads", world.where() + " holds no object \"" + id + "\"");
 }
 
+constexpr double kTolerance = 1.0 + 1e-9;  // A norm of limited components may exceed by rounding.
+
+bool isTooFast(const RobotLimits& limits, const Twist2& twist) {
+  return twist.speed() > limits.max_speed_mps * kTolerance;
+}
+
+bool turnsTooFast(const RobotLimits& limits, const Twist2& twist) {
+  return std::abs(twist.wz_rps) > limits.max_yaw_rate_rps * kTolerance;
+}
+
 // Scales a twist into the limits; false if it was beyond them.
 bool clampTwist(const RobotLimits& limits, Twist2& twist) {
-  constexpr double kTolerance = 1.0 + 1e-9;  // A norm of limited components may exceed by rounding.
   bool within = true;
-  if (twist.speed() > limits.max_speed_mps * kTolerance) {
+  if (isTooFast(limits, twist)) {
     const double factor = limits.max_speed_mps / twist.speed();
     twist.vx_mps *= factor;
     twist.vy_mps *= factor;
     within = false;
   }
-  if (std::abs(twist.wz_rps) > limits.max_yaw_rate_rps * kTolerance) {
+  if (turnsTooFast(limits, twist)) {
     twist.wz_rps = std::copysign(limits.max_yaw_rate_rps, twist.wz_rps);
     within = false;
   }
@@ -183,6 +192,25 @@ bool Simulator::setCommand(const Twist2& robot_twist) {
   return within;
 }
 
+std::string Simulator::commandFault(const Twist2& robot_twist) const {
+  const RobotLimits& limits = data_->scene.robot.limits;
+  std::ostringstream text;
+  if (!robot_twist.isFinite()) {
+    text << "(" << robot_twist.vx_mps << " m/s, " << robot_twist.vy_mps << " m/s, "
+         << robot_twist.wz_rps << " rad/s) is not finite";
+    return text.str();
+  }
+  if (isTooFast(limits, robot_twist)) {
+    text << "the speed is " << robot_twist.speed() << " m/s, above the limit of "
+         << limits.max_speed_mps << " m/s";
+  }
+  if (turnsTooFast(limits, robot_twist)) {
+    text << (text.tellp() > 0 ? "; " : "") << "the yaw rate is " << robot_twist.wz_rps
+         << " rad/s, beyond the limit of " << limits.max_yaw_rate_rps << " rad/s";
+  }
+  return text.str();
+}
+
 void Simulator::step(int count) {
   constexpr double kTimeEpsilon_s = 1e-9;
   Data::Run& run = *data_->run;
@@ -199,6 +227,7 @@ void Simulator::step(int count) {
 }
 
 double Simulator::time() const { return data_->time(); }
+std::int64_t Simulator::stepCount() const { return data_->run->steps; }
 double Simulator::stepSeconds() const { return data_->options.step_s; }
 
 std::vector<TagFrame> Simulator::takeTagFrames() { return data_->run->cameras.take(time()); }

@@ -2,6 +2,7 @@
 
 #include <casepush/AprilTagDetectionArray.h>
 #include <casepush/BodyContactArray.h>
+#include <casepush/ObjectLoad.h>
 #include <casepush/ObjectPose.h>
 #include <casepush/Octomap.h>
 #include <casepush/Pose2DWithCovariance.h>
@@ -68,6 +69,9 @@ AprilTagDetectionArray toMessage(const TagFrame& frame);
 TagFrame fromMessage(const AprilTagDetectionArray& message);
 
 nav_msgs::Odometry toMessage(const OdometryReading& reading);
+ObjectLoad toMessage(const std::string& id, const Load& load);
+/// A height of 0 and a size of 0 stand for those that Load leaves open.
+Load fromMessage(const ObjectLoad& message);
 BodyContactArray toMessage(const std::vector<ContactReport>& contacts, double stamp_s);
 
 sensor_msgs::PointCloud2 toMessage(const std::vector<Eigen::Vector3f>& map_points, double stamp_s);

@@ -20,6 +20,7 @@ constexpr Topic kCommandVelocity{"cmd_vel", 1};
 
 // Ground truth, for judging only.
 constexpr Topic kTrueObjects{"ground_truth/objects", 10};
+constexpr Topic kTrueLoads{"ground_truth/loads", 1};  ///< Latched.
 constexpr Topic kContacts{"contacts", 100};
 
 // What the robot knows.
@@ -41,6 +42,8 @@ constexpr Topic kTreeMarkers{"plan/tree", 1};
 // Services.
 constexpr const char* kResetService = "sim/reset";
 constexpr const char* kSetPoseService = "sim/set_pose";
+constexpr const char* kSetLoadService = "sim/set_load";
+constexpr const char* kStepService = "sim/step";
 constexpr const char* kStopService = "stop";
 constexpr const char* kExportCasesService = "cases/export";
 constexpr const char* kImportCasesService = "cases/import";

@@ -34,6 +34,7 @@ struct SimNodeParameters {
   std::map<std::string, ObjectModel> models;  ///< By the names that the world uses.
   SimulatorOptions simulator;
   double real_time_factor = 1.0;      ///< 0: as fast as the nodes keep up.
+  bool lock_step = false;             ///< Time stands still but for the service sim/step.
   double max_sim_time_s = 0.0;        ///< Ends the node; 0: never.
   double survey_resolution_m = 0.05;  ///< Spacing of `points`.
 };

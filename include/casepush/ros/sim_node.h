@@ -1,8 +1,11 @@
 #pragma once
 
+#include <casepush/ObjectLoadArray.h>
 #include <casepush/PushableObjectArray.h>
 #include <casepush/Reset.h>
+#include <casepush/SetLoad.h>
 #include <casepush/SetPoses.h>
+#include <casepush/StepSimulation.h>
 #include <geometry_msgs/Twist.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
@@ -24,6 +27,8 @@ std::vector<geometry_msgs::TransformStamped> cameraTransforms(const RobotModel& 
 /// Everything happens in one thread: a control period of simulation, then callbacks. With
 /// real_time_factor 0 the next period begins as soon as a command has come, or when none came
 /// within a while; so a controller that commands once per period stays in step with the world.
+/// With lock_step time stands still but for the service sim/step. All modes take the same steps and
+/// publish at the same simulated times; they differ in when they take the next one.
 class SimNode {
  public:
   /// @throws InputError from the simulator.
@@ -35,11 +40,16 @@ class SimNode {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  void advance();
+  std::int64_t stepsToPeriodEnd() const;
+  void advance(std::int64_t steps);
+  void standStill();
+  void publishPeriod();
+  void publishClock();
   void publishMotion();
   void publishSensors();
   void publishTruth();
   void publishSurvey();
+  void publishLoads();
   void waitForNodes();
   bool isCommanded() const;
   bool nodesKeepUp() const;
@@ -47,8 +57,11 @@ class SimNode {
 
   void onObjects(const PushableObjectArray& message);
   void onCommand(const geometry_msgs::Twist& message);
+  void command(const Twist2& robot_twist);
+  bool onStep(StepSimulation::Request& request, StepSimulation::Response& response);
   bool onReset(Reset::Request& request, Reset::Response& response);
   bool onSetPoses(SetPoses::Request& request, SetPoses::Response& response);
+  bool onSetLoad(SetLoad::Request& request, SetLoad::Response& response);
   void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   SimNodeParameters parameters_;
@@ -58,17 +71,19 @@ class SimNode {
   ros::Publisher odometry_;
   ros::Publisher tags_;
   ros::Publisher true_objects_;
+  ros::Publisher true_loads_;
   ros::Publisher contacts_;
   ros::Publisher points_;
   ros::Subscriber command_;
   ros::Subscriber objects_;
   ros::ServiceServer reset_;
   ros::ServiceServer set_poses_;
+  ros::ServiceServer set_load_;
+  ros::ServiceServer step_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
 
-  double next_period_s_ = 0.0;  ///< Simulated time at which the current control period ends.
-  int period_ = 0;
+  std::int64_t period_ = 0;  ///< Control periods that are over since the start or reset.
   bool command_arrived_ = false;
   double last_command_s_ = -1e9;
   double last_objects_s_ = -1e9;

@@ -77,8 +77,12 @@ class Simulator {
   /// Returns false in either case.
   bool setCommand(const Twist2& robot_twist);
 
+  /// What is wrong with a command, naming values and bounds; empty if setCommand() takes it.
+  std::string commandFault(const Twist2& robot_twist) const;
+
   void step(int count = 1);
-  double time() const;  ///< Simulated seconds.
+  double time() const;             ///< Simulated seconds.
+  std::int64_t stepCount() const;  ///< Since the start or the last reset.
   double stepSeconds() const;
 
   /// Images taken since the last call whose latency has passed, oldest first. Without calls the

@@ -4,65 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <limits>
 
 #include "casepush/common/input_error.h"
 #include "casepush/common/random.h"
 #include "casepush/model/catalog.h"
+#include "sim/driving.h"
 #include "sim/scenes.h"
 
 namespace casepush {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-Simulator makeSimulator(const WorldModel& world, std::uint64_t seed = 1,
-                        const SimulatorOptions& base = {}) {
-  SimulatorOptions options = base;
-  options.seed = seed;
-  RobotModel robot = test::makeRobot();
-  robot.cameras.push_back(test::makeCamera());
-  return Simulator(world, robot, {{"cart", test::makeCart()}, {"crate", test::makeCrate()}},
-                   options);
-}
-
-// Drives for a time, renewing the command as a node would.
-void drive(Simulator& simulator, const Twist2& twist, double duration_s) {
-  const int ticks = static_cast<int>(std::lround(duration_s * 48.0));
-  for (int i = 0; i < ticks; ++i) {
-    simulator.setCommand(twist);
-    simulator.step(static_cast<int>(std::lround(1.0 / (48.0 * simulator.stepSeconds()))));
-  }
-}
-
-void mix(std::uint64_t& hash, double value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  hash = (hash ^ bits) * 0x100000001b3ULL;
-}
-
-// FNV over everything that a caller can see, down to the last bit.
-std::uint64_t hashOf(Simulator& simulator) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  const Pose2 robot = simulator.trueRobotPose();
-  for (const double value : {robot.x(), robot.y(), robot.yaw(), simulator.time()}) mix(hash, value);
-  for (const ObjectPlacement& object : simulator.world().objects) {
-    for (const Eigen::Isometry3d& pose : simulator.trueLinkPoses(object.id)) {
-      for (int i = 0; i < 12; ++i) mix(hash, pose.affine()(i % 3, i / 3));
-    }
-  }
-  const OdometryReading odometry = simulator.odometry();
-  mix(hash, odometry.map_T_odom.x());
-  mix(hash, odometry.odom_T_robot.yaw());
-  for (const TagFrame& frame : simulator.takeTagFrames()) {
-    mix(hash, frame.stamp_s);
-    for (const TagDetection& tag : frame.detections) mix(hash, tag.camera_T_tag(0, 3));
-  }
-  for (const ContactReport& contact : simulator.takeContacts()) mix(hash, contact.impulse_ns);
-  return hash;
-}
 
 // Touches, loses and re-places things, so that every cache of the engine gets its chance.
 std::uint64_t exercise(Simulator& simulator) {
@@ -73,15 +26,6 @@ std::uint64_t exercise(Simulator& simulator) {
   drive(simulator, {0.1, 0.0, -0.3}, 1.0);
   return hashOf(simulator);
 }
-
-class SimulatorModels : public testing::TestWithParam<CasterModel> {
- protected:
-  static SimulatorOptions options() {
-    SimulatorOptions result;
-    result.caster_model = GetParam();
-    return result;
-  }
-};
 
 INSTANTIATE_TEST_SUITE_P(Models, SimulatorModels,
                          testing::Values(CasterModel::kFeatherstone, CasterModel::kPlanar),
@@ -130,29 +74,6 @@ TEST_P(SimulatorModels, robotReachesTheCommandedVelocityAndStopsWithinAFifthOfAS
   EXPECT_LT(std::abs(simulator.odometry().robot_twist.wz_rps), 1e-6);
 }
 
-TEST(Simulator, robotStopsWhenCommandsCease) {
-  Simulator simulator = makeSimulator(test::makeWorld());
-  drive(simulator, {0.5, 0.0, 0.0}, 0.5);
-  simulator.step(58);  // 0.24 s, and the last tick's own 0.02 s.
-  EXPECT_LT(simulator.odometry().robot_twist.speed(), 0.5);
-  simulator.step(48);
-  EXPECT_LT(simulator.odometry().robot_twist.speed(), 1e-6);
-}
-
-TEST(Simulator, ignoresCommandsThatAreNotFiniteAndClampsThoseBeyondLimits) {
-  Simulator simulator = makeSimulator(test::makeWorld());
-  EXPECT_TRUE(simulator.setCommand({0.3, 0.0, 0.0}));
-  EXPECT_FALSE(simulator.setCommand({kNan, 0.0, 0.0}));
-  simulator.step(48);
-  EXPECT_NEAR(simulator.odometry().robot_twist.vx_mps, 0.3, 0.01);
-  EXPECT_FALSE(simulator.setCommand({3.0, 4.0, -9.0}));
-  simulator.step(59);
-  const Twist2 twist = simulator.odometry().robot_twist;
-  EXPECT_NEAR(twist.vx_mps, 0.3, 0.01);
-  EXPECT_NEAR(twist.vy_mps, 0.4, 0.01);
-  EXPECT_NEAR(twist.wz_rps, -1.0, 0.02);
-}
-
 TEST_P(SimulatorModels, pushesAWallWithNoMoreThanTheDriveGives) {
   WorldModel world = test::makeWorld();
   world.boxes.push_back(test::makeBox("wall", {0.1, 4.0, 1.0}, 0.0, 0.0));
@@ -187,15 +108,6 @@ TEST_P(SimulatorModels, contactsNameParts) {
   EXPECT_EQ(contacts[0].part_b, "base");
   EXPECT_GT(contacts[0].impulse_ns, 0.0);
   EXPECT_TRUE(simulator.takeContacts().empty());
-}
-
-void expectInputError(const std::function<void()>& action, const std::string& text) {
-  try {
-    action();
-    FAIL() << "no error; expected: " << text;
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-  }
 }
 
 TEST_P(SimulatorModels, refusesBadPosesAndStaysAsItWas) {
