@@ -54,15 +54,16 @@ SimNode::SimNode(SimNodeParameters parameters, ros::NodeHandle handle)
       simulator_(parameters_.world, parameters_.robot, parameters_.models, parameters_.simulator),
       handle_(handle),
       diagnostics_(handle, "simulation", [this](auto& status) { reportDiagnostics(status); }) {
-  clock_ = handle_.advertise<rosgraph_msgs::Clock>(names::kClock.name, names::kClock.queue_size);
-  odometry_ =
-      handle_.advertise<nav_msgs::Odometry>(names::kOdometry.name, names::kOdometry.queue_size);
-  tags_ = handle_.advertise<AprilTagDetectionArray>(names::kTagDetections.name,
-                                                    names::kTagDetections.queue_size);
-  true_objects_ = handle_.advertise<PushableObjectArray>(names::kTrueObjects.name,
-                                                         names::kTrueObjects.queue_size);
-  contacts_ =
-      handle_.advertise<BodyContactArray>(names::kContacts.name, names::kContacts.queue_size);
+  // In lock-step a call may take many periods at once, and none of their messages may be lost.
+  const auto advertise = [this](const names::Topic& topic, auto example) {
+    return handle_.advertise<decltype(example)>(topic.name,
+                                                parameters_.lock_step ? 0 : topic.queue_size);
+  };
+  clock_ = advertise(names::kClock, rosgraph_msgs::Clock());
+  odometry_ = advertise(names::kOdometry, nav_msgs::Odometry());
+  tags_ = advertise(names::kTagDetections, AprilTagDetectionArray());
+  true_objects_ = advertise(names::kTrueObjects, PushableObjectArray());
+  contacts_ = advertise(names::kContacts, BodyContactArray());
   true_loads_ = handle_.advertise<ObjectLoadArray>(names::kTrueLoads.name,
                                                    names::kTrueLoads.queue_size, true);
   points_ = handle_.advertise<sensor_msgs::PointCloud2>(names::kPoints.name,

@@ -7,6 +7,7 @@ import sys
 import tempfile
 import unittest
 
+import rospy
 import rostest
 
 import harness
@@ -18,6 +19,8 @@ class BadInputTest(unittest.TestCase):
 
     def setUp(self):
         self.folder = tempfile.mkdtemp()
+        if rospy.has_param("/checked_sim_node"):  # Parameters of the run before.
+            rospy.delete_param("/checked_sim_node")
 
     def tearDown(self):
         shutil.rmtree(self.folder)
@@ -40,6 +43,23 @@ class BadInputTest(unittest.TestCase):
         for executable in ("sim_node", "perception_node", "planner_node", "executor_node",
                            "learner_node", "demo_node"):
             self.expect(["atlantis"], executable, "_world:=atlantis")
+
+    def test_worlds_that_cannot_be(self):
+        chair = "{id: chair_1, model: office_chair, xy: [0, 0], yaw_deg: 0}"
+        other = "{id: chair_2, model: office_chair, xy: [0.1, 0], yaw_deg: 0}"
+        for objects, words in (
+                (f"{chair}, {other}", ["chair_1", "chair_2", "overlaps"]),
+                (chair.replace("office_chair", "piano"), ["chair_1", "piano", "office_chair"]),
+                (chair.replace("[0, 0]", "[9, 0]"), ["objects[0].xy", "outside"]),
+                (chair.replace("[0, 0]", "[-3, 0]"), ["robot", "overlaps"]),
+                (chair.replace("chair_1", "chair 1"), ["'chair 1'", "letters"]),
+                (chair.replace("yaw_deg: 0", "yaw_deg: 0, load: {mass_kg: 90, xy: [0, 0]}"),
+                 ["load.mass_kg", "[0, 80]"])):
+            text = ("bounds: {min: [-5, -5], max: [5, 5]}\n"
+                    "robot: {model: cobot, xy: [-3, 0], yaw_deg: 0}\n"
+                    f"objects: [{objects}]\n")
+            file = self.write("room.yaml", text.encode())
+            self.expect([file] + words, "sim_node", f"_world:={file}")
 
     def test_all_wrong_parameters_at_once(self):
         self.expect(["real_time_factor is -1", "unknown parameter sped"], "sim_node", OFFICE,

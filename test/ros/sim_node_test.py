@@ -9,14 +9,15 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
-from geometry_msgs.msg import Pose2D, Twist
+from geometry_msgs.msg import Point, Pose2D, Twist
 from nav_msgs.msg import Odometry
-from rosgraph_msgs.msg import Clock
+from rosgraph_msgs.msg import Clock, Log
 from sensor_msgs.msg import PointCloud2
 
 import harness
-from casepush.msg import AprilTagDetectionArray, BodyPose, PushableObjectArray
-from casepush.srv import Reset, SetPoses
+from casepush.msg import AprilTagDetectionArray, BodyPose, ObjectLoad, ObjectLoadArray
+from casepush.msg import PushableObjectArray
+from casepush.srv import Reset, SetLoad, SetPoses
 
 
 class SimNodeTest(unittest.TestCase):
@@ -91,6 +92,44 @@ class SimNodeTest(unittest.TestCase):
         before = self.odometry.last().pose.pose.position.x
         self.drive(math.nan, 1.0)
         self.assertAlmostEqual(self.odometry.last().pose.pose.position.x, before, delta=0.02)
+
+    def test_warns_by_value_and_bound(self):
+        log = harness.Recorder("/rosout", Log)
+
+        def warned(vx_mps, words):
+            self.command.publish(harness.twist(vx_mps))
+            return any(all(word in m.msg for word in words) for _, m in log.all())
+
+        for vx_mps, words in ((math.nan, ("cmd_vel is ignored", "nan m/s", "not finite")),
+                              (7.0, ("cmd_vel is clamped", "7 m/s", "limit of"))):
+            harness.wait_until(lambda v=vx_mps, w=words: warned(v, w), what=str(words))
+        # Throttled: many commands, at most a line for each second of simulated time.
+        self.drive(0.0, 0.1)
+        log.clear()
+        self.drive(math.nan, 2.5)
+        lines = [m for _, m in log.all() if "cmd_vel is ignored" in m.msg]
+        self.assertLessEqual(len(lines), 4)
+
+    def test_puts_loads_on_objects(self):
+        loads = harness.Recorder("ground_truth/loads", ObjectLoadArray)
+        self.assertEqual(loads.wait().loads, [])
+        set_load = rospy.ServiceProxy("sim/set_load", SetLoad)
+        answer = set_load(ObjectLoad(id=harness.OBJECT, mass=30.0))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.load.mass, 30.0)
+        self.assertGreater(answer.load.centre.z, 0.4)  # On the seat.
+        shown = loads.wait(lambda m: len(m.loads) == 1).loads[0]
+        self.assertEqual((shown.id, shown.mass), (harness.OBJECT, 30.0))
+        for load, words in ((ObjectLoad(id="piano", mass=1.0), "piano"),
+                            (ObjectLoad(id=harness.OBJECT, mass=81.0), "[0, 80]"),
+                            (ObjectLoad(id=harness.OBJECT, mass=math.nan), "[0, 80]"),
+                            (ObjectLoad(id=harness.OBJECT, mass=5.0, centre=Point(3.0, 0.0, 0.0)),
+                             "footprint")):
+            answer = set_load(load)
+            self.assertFalse(answer.success)
+            self.assertIn(words, answer.message)
+        self.assertTrue(set_load(ObjectLoad(id=harness.OBJECT, mass=0.0)).success)
+        loads.wait(lambda m: not m.loads)
 
     def test_puts_bodies_somewhere(self):
         response = self.set_pose([BodyPose(harness.OBJECT, Pose2D(1.0, 2.0, 0.5)),
