@@ -44,7 +44,11 @@ LearningResult learnInLab(const Catalog& catalog, const std::string& object,
                           const std::string& robot, CaseBase& case_base,
                           const LearningOptions& options,
                           const std::function<bool(const LearningProgress&)>& progress) {
-  ClosedLoop loop(catalog, arena(object, robot), options.lab);
+  LabOptions lab = options.lab;
+  if (options.load) {
+    lab.simulator.loads[kObjectId] = *options.load;
+  }
+  ClosedLoop loop(catalog, arena(object, robot), lab);
   const ObjectModel& object_model = loop.simulator().object(kObjectId);
   const RobotModel& robot_model = loop.simulator().robot();
   Exploration exploration(object_model, robot_model, options.exploration);

@@ -8,6 +8,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "casepush/common/input_error.h"
+
 namespace casepush {
 namespace {
 
@@ -54,6 +56,26 @@ void addCasterModelOption(CLI::App& command, CasterModel& model) {
           [&model](const std::string& name) { model = casterModelFromString(name); },
           "How the simulator moves casters: featherstone (reference) or planar (fast)")
       ->default_str(toString(model));
+}
+
+void addLoadOption(CLI::App& command, std::optional<Load>& load) {
+  command
+      .add_option_function<std::vector<double>>(
+          "--load",
+          [&load](const std::vector<double>& numbers) {
+            if (numbers.size() == 2) {
+              throw InputError("--load", "must be KG or KG X_M Y_M");
+            }
+            load.emplace();
+            load->mass_kg = numbers[0];
+            if (numbers.size() == 3) {
+              load->object_p_centre_m << numbers[1], numbers[2];
+            }
+          },
+          "What lies on top of the object: 0 to 80 kg and where in the object's frame; default: "
+          "its origin")
+      ->expected(1, 3)
+      ->type_name("KG [X_M Y_M]");
 }
 
 void printResult(const nlohmann::ordered_json& result, bool json) {

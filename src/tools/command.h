@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "casepush/sim/simulator.h"
@@ -40,6 +41,9 @@ void addCommonOptions(CLI::App& command, CommonOptions& options);
 
 /// --caster-model. @pre `model` lives until the command line is parsed.
 void addCasterModelOption(CLI::App& command, CasterModel& model);
+
+/// --load KG [X_M Y_M]. @pre `load` lives until the command line is parsed.
+void addLoadOption(CLI::App& command, std::optional<Load>& load);
 
 /// Prints one JSON object on stdout if asked to, else its members as lines for a person.
 /// What differs between runs of the same seed is under "timing".

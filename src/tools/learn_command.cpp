@@ -47,7 +47,11 @@ int learn(const LearnArguments& arguments) {
   options.lab.simulator.seed = arguments.common.seed;
   options.exploration.validate();
   // Everything is checked before a case base is made.
-  const std::string name = catalog.object(arguments.object).name;
+  const ObjectModel object = catalog.object(arguments.object);
+  const std::string& name = object.name;
+  if (options.load) {
+    placedLoad(*options.load, object.mechanism, "--load");
+  }
   catalog.robot(arguments.robot);
   CaseBase case_base(arguments.case_base, CaseBase::Access::kCreate);
   ProgressLine line;
@@ -91,6 +95,7 @@ void addLearnCommand(CLI::App& app, Run& run) {
   command->add_option("--practices", exploration.practices, "Pushes per case")
       ->capture_default_str();
   addCasterModelOption(*command, arguments->learning.lab.simulator.caster_model);
+  addLoadOption(*command, arguments->learning.load);
   command->callback([arguments, &run] { run = [arguments] { return learn(*arguments); }; });
 }
 

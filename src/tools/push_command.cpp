@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -18,6 +19,7 @@ struct PushArguments {
   TaskArguments task;
   bool no_adapt = false;
   CasterModel caster_model = CasterModel::kFeatherstone;
+  std::optional<Load> load;
   double time_limit_s = 1200.0;
 };
 
@@ -81,6 +83,9 @@ int push(const PushArguments& arguments) {
   PushRunOptions options;
   options.lab.simulator.seed = arguments.task.common.seed;
   options.lab.simulator.caster_model = arguments.caster_model;
+  if (arguments.load) {
+    options.lab.simulator.loads[task.problem.object_id] = *arguments.load;
+  }
   options.adapt = !arguments.no_adapt;
   options.time_limit_s = arguments.time_limit_s;
   options.task.plan_deadline_s = kPlanDeadlineS;
@@ -137,6 +142,7 @@ void addPushCommand(CLI::App& app, Run& run) {
       ->check(finiteIn(1.0, 36000.0))
       ->capture_default_str();
   addCasterModelOption(*command, arguments->caster_model);
+  addLoadOption(*command, arguments->load);
   command->callback([arguments, &run] { run = [arguments] { return push(*arguments); }; });
 }
 

@@ -214,3 +214,24 @@ def test_unknown_caster_models_are_refused(case_base):
                        "--caster-model", "flat", "--json")
     assert process.returncode == 2
     assert "featherstone or planar" in result_of(process)["error"]
+
+
+def test_learns_what_a_load_does_and_refuses_bad_ones(tmp_path):
+
+    def learn(name, *load):
+        process = casepush("learn", "--object", "overbed_table", "--case-base", tmp_path / name,
+                           "--cases", 1, "--practices", 2, "--caster-model", "planar", "--json",
+                           *load)
+        return process.returncode, result_of(process)
+
+    code, bare = learn("bare.db")
+    assert code == 0
+    code, loaded = learn("loaded.db", "--load", 40)
+    assert code == 0
+    assert loaded["cases"][0]["x_m"] != bare["cases"][0]["x_m"]
+    for load, words in (((90,), "[0, 80]"), (("nan",), "[0, 80]"), ((40, 3, 0), "footprint"),
+                        ((40, 1), "KG X_M Y_M")):
+        code, result = learn("bad.db", "--load", *load)
+        assert code == 2
+        assert words in result["error"]
+    assert not (tmp_path / "bad.db").exists()

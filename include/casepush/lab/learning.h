@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "casepush/cases/case_base.h"
@@ -14,6 +15,7 @@ struct LearningOptions {
   ExecutePushOptions push;
   CovarianceFloor floor;
   LabOptions lab;
+  std::optional<Load> load;  ///< What the object carries.
 };
 
 /// Where learning stands, for a progress line.
