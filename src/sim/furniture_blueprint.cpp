@@ -46,17 +46,28 @@ void markCasters(const std::vector<Caster>& casters, FurnitureBlueprint& result)
   }
 }
 
+// Of a wheel's shape: a floor contact nearer than this to the one of the step before replaces it.
+// Bullet's own bound for spheres, 0.02 r, is less than a wheel rolls in a step: points that it has
+// left behind would stay, and what they bear behind the axle would drive it forwards.
+template <typename Shape>
+struct Rolling final : Shape {
+  using Shape::Shape;
+  btScalar getContactBreakingThreshold(btScalar) const override {
+    return 0.5 * this->getAngularMotionDisc();
+  }
+};
+
 // A sphere touches a plane in one well-conditioned point and rolls true; a wheel's width matters
 // only on uneven floors. Under load it has the wheel's radius.
 void addWheelShape(BodyBlueprint& body, FurnitureBlueprint& result) {
   const double radius_m =
       result.wheel_radius_m[static_cast<std::size_t>(body.wheel)] + kWheelSink_m;
-  auto sphere = std::make_unique<btSphereShape>(radius_m);
+  auto sphere = std::make_unique<Rolling<btSphereShape>>(radius_m);
   const Eigen::Vector3d com_p_pivot = body.mass.root_T_com.inverse() * body.root_pivot_m;
   if (com_p_pivot.norm() < 1e-9) {
     body.shape = sphere.get();
   } else {
-    auto offset = std::make_unique<btCompoundShape>(false);
+    auto offset = std::make_unique<Rolling<btCompoundShape>>(false);
     offset->addChildShape(btTransform(btMatrix3x3::getIdentity(), toBullet(com_p_pivot)),
                           sphere.get());
     body.shape = offset.get();

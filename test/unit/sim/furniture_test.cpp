@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contact_log.h"
+#include "featherstone_engine.h"
 #include "physics_world.h"
 #include "scene.h"
 #include "sim/motions.h"
@@ -105,6 +106,27 @@ TEST_P(FurnitureModels, neverGainsEnergyWhileCoasting) {
     }
     EXPECT_LT(gain, 1e-4 * at_start) << "seed " << seed;
     EXPECT_LT(least, 0.05 * at_start) << "seed " << seed;
+  }
+}
+
+// Points that a wheel has left behind would bear part of its load behind the axle, and drive it.
+TEST(FeatherstoneEngine, letsARollingWheelTouchTheFloorInOnePoint) {
+  const Scene scene(test::makeCartWorld(), test::makeRobot(), {{"cart", test::makeCart()}});
+  for (const double speed_mps : {0.1, 0.3, 1.0}) {
+    WorldState state = restingState(scene);
+    setRolling(state.furniture[0], speed_mps, 0.0, 0.05);
+    CollisionSpace space(scene);
+    FeatherstoneEngine engine(scene, space, state, {});
+    ContactLog contacts;
+    for (int i = 0; i < 60; ++i) engine.step(contacts);
+    int wheels = 0;
+    for (int m = 0; m < space.dispatcher().getNumManifolds(); ++m) {
+      const btPersistentManifold& manifold = *space.dispatcher().getManifoldByIndexInternal(m);
+      if (tagOf(manifold.getBody0()).wheel < 0 && tagOf(manifold.getBody1()).wheel < 0) continue;
+      EXPECT_EQ(manifold.getNumContacts(), 1) << speed_mps << " m/s";
+      ++wheels;
+    }
+    EXPECT_EQ(wheels, 4);
   }
 }
 
