@@ -19,6 +19,7 @@ constexpr double kCommandPeriodS = 0.05;
 constexpr double kRestLimitS = 20.0;
 constexpr double kRestSpeed = 1e-3;  // m/s and rad/s
 constexpr double kGapM = 0.02;
+constexpr double kDurationsPerS = 60.0;
 
 struct RandomPush {
   double object_yaw_rad = 0.0;
@@ -33,7 +34,8 @@ RandomPush drawPush(Random& random, double object_radius_m) {
   push.offset_m = random.uniform(-0.5, 0.5) * object_radius_m;
   push.robot_twist.vx_mps = random.uniform(0.15, 0.4);
   push.robot_twist.wz_rps = random.uniform(-0.3, 0.3);
-  push.duration_s = random.uniform(1.0, 3.0);
+  // In whole steps of every simulator, or rounding would look like physics.
+  push.duration_s = std::round(random.uniform(1.0, 3.0) * kDurationsPerS) / kDurationsPerS;
   return push;
 }
 
@@ -102,7 +104,53 @@ Eigen::Vector3d outcomeOf(Simulator& simulator, const RandomPush& push) {
   return {end.x(), end.y(), turned_rad};
 }
 
-OutcomeMoments momentsOf(const std::vector<Eigen::Vector3d>& outcomes) {
+class Comparison {
+ public:
+  Comparison(const Catalog& catalog, const OutcomeComparisonOptions& options)
+      : options_(options),
+        robot_(catalog.robot(options.robot)),
+        object_(catalog.object(options.object)) {
+    robot_.cameras.clear();  // Nobody looks.
+    options_.reference.sensor_noise = false;
+    for (SimulatorOptions& other : options_.others) other.sensor_noise = false;
+  }
+
+  PushOutcomes compare(int number) const {
+    Random random = Random::stream(options_.seed, "push " + std::to_string(number));
+    const RandomPush push = drawPush(random, object_.radius_m);
+    WorldModel world = emptyFloor(object_.name, options_.robot, push);
+    placeRobot(world, robot_, object_, options_.reference);
+    std::vector<std::uint64_t> seeds;
+    for (int i = 0; i < options_.swivels; ++i) seeds.push_back(random.bits());
+    PushOutcomes result;
+    result.reference = outcomesOf(world, push, seeds, options_.reference);
+    for (const SimulatorOptions& other : options_.others) {
+      result.others.push_back(outcomesOf(world, push, seeds, other));
+    }
+    return result;
+  }
+
+ private:
+  Outcomes outcomesOf(const WorldModel& world, const RandomPush& push,
+                      const std::vector<std::uint64_t>& seeds,
+                      const SimulatorOptions& options) const {
+    Simulator simulator(world, robot_, {{object_.name, object_}}, options);
+    Outcomes outcomes;
+    for (const std::uint64_t seed : seeds) {
+      simulator.reset(seed);
+      outcomes.push_back(outcomeOf(simulator, push));
+    }
+    return outcomes;
+  }
+
+  OutcomeComparisonOptions options_;
+  RobotModel robot_;
+  ObjectModel object_;
+};
+
+}  // namespace
+
+OutcomeMoments momentsOf(const Outcomes& outcomes) {
   const double n = static_cast<double>(outcomes.size());
   OutcomeMoments result;
   for (const Eigen::Vector3d& outcome : outcomes) result.mean += outcome / n;
@@ -114,48 +162,6 @@ OutcomeMoments momentsOf(const std::vector<Eigen::Vector3d>& outcomes) {
   result.yaw_sigma_rad = std::sqrt(variance.z());
   return result;
 }
-
-class Comparison {
- public:
-  Comparison(const Catalog& catalog, const OutcomeComparisonOptions& options)
-      : options_(options),
-        robot_(catalog.robot(options.robot)),
-        object_(catalog.object(options.object)) {
-    robot_.cameras.clear();  // Nobody looks.
-    options_.reference.sensor_noise = options_.other.sensor_noise = false;
-  }
-
-  PushComparison compare(int number) const {
-    Random random = Random::stream(options_.seed, "push " + std::to_string(number));
-    const RandomPush push = drawPush(random, object_.radius_m);
-    WorldModel world = emptyFloor(object_.name, options_.robot, push);
-    placeRobot(world, robot_, object_, options_.reference);
-    Simulator reference(world, robot_, {{object_.name, object_}}, options_.reference);
-    Simulator other(world, robot_, {{object_.name, object_}}, options_.other);
-    std::vector<Eigen::Vector3d> reference_outcomes;
-    std::vector<Eigen::Vector3d> other_outcomes;
-    PushComparison result;
-    for (int i = 0; i < options_.swivels; ++i) {
-      const std::uint64_t seed = random.bits();
-      reference.reset(seed);
-      other.reset(seed);
-      reference_outcomes.push_back(outcomeOf(reference, push));
-      other_outcomes.push_back(outcomeOf(other, push));
-      result.run_difference_m.push_back(
-          (reference_outcomes.back() - other_outcomes.back()).head<2>().norm());
-    }
-    result.reference = momentsOf(reference_outcomes);
-    result.other = momentsOf(other_outcomes);
-    return result;
-  }
-
- private:
-  OutcomeComparisonOptions options_;
-  RobotModel robot_;
-  ObjectModel object_;
-};
-
-}  // namespace
 
 void OutcomeComparisonOptions::validate() const {
   std::ostringstream text;
@@ -169,15 +175,15 @@ void OutcomeComparisonOptions::validate() const {
   require("jobs", jobs, 1, 1024);
   if (!text.str().empty()) throw InputError("outcome comparison", text.str());
   reference.validate();
-  other.validate();
+  for (const SimulatorOptions& other : others) other.validate();
 }
 
-std::vector<PushComparison> compareOutcomes(const Catalog& catalog,
-                                            const OutcomeComparisonOptions& options,
-                                            const std::function<void(int)>& progress) {
+std::vector<PushOutcomes> compareOutcomes(const Catalog& catalog,
+                                          const OutcomeComparisonOptions& options,
+                                          const std::function<void(int)>& progress) {
   options.validate();
   const Comparison comparison(catalog, options);
-  std::vector<PushComparison> results(static_cast<std::size_t>(options.pushes));
+  std::vector<PushOutcomes> results(static_cast<std::size_t>(options.pushes));
   std::atomic<int> next{0};
   std::mutex mutex;
   int done = 0;

@@ -1,85 +1,77 @@
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "casepush/lab/sim_benchmark.h"
 #include "command.h"
+#include "sim_bench_json.h"
 
 namespace casepush {
 namespace {
 
-constexpr double kLeastSigma = 1e-6;  // Below it an outcome does not vary.
+// Steps at which the models are compared with a much finer one.
+constexpr double kFinestStep_s = 1.0 / 2400.0;
+constexpr int kStepRates_hz[] = {120, 240, 480};
 
 struct BenchArguments {
   CommonOptions common;
   OutcomeComparisonOptions outcomes;
-  bool finer = false;
+  bool fidelity = false;
+  bool laws = false;
   double speed_s = 60.0;
 };
 
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto low = static_cast<std::size_t>(place);
-  const std::size_t high = std::min(low + 1, values.size() - 1);
-  return values[low] + (place - static_cast<double>(low)) * (values[high] - values[low]);
+SimulatorOptions simulatorOf(CasterModel model, double step_s) {
+  SimulatorOptions options;
+  options.caster_model = model;
+  options.step_s = step_s;
+  return options;
 }
 
-nlohmann::ordered_json spread(const std::vector<double>& values) {
-  return {{"median", quantile(values, 0.5)}, {"p90", quantile(values, 0.9)}};
-}
-
-nlohmann::ordered_json ratios(const std::vector<double>& values) {
-  if (values.empty()) return nullptr;  // Nothing varies: the object has no swivels.
-  return {{"p10", quantile(values, 0.1)},
-          {"median", quantile(values, 0.5)},
-          {"p90", quantile(values, 0.9)}};
-}
-
-nlohmann::ordered_json comparisonJson(const std::vector<PushComparison>& pushes) {
-  std::vector<double> displacement_m, mean_m, mean_rad, run_m, sigma_m, sigma_rad, ratio_m,
-      ratio_rad;
-  Eigen::Vector2d reference_variance = Eigen::Vector2d::Zero();
-  Eigen::Vector2d other_variance = Eigen::Vector2d::Zero();
-  for (const PushComparison& push : pushes) {
-    const Eigen::Vector3d difference = push.other.mean - push.reference.mean;
-    displacement_m.push_back(push.reference.mean.head<2>().norm());
-    mean_m.push_back(difference.head<2>().norm());
-    mean_rad.push_back(std::abs(difference.z()));
-    run_m.insert(run_m.end(), push.run_difference_m.begin(), push.run_difference_m.end());
-    sigma_m.push_back(push.reference.position_sigma_m);
-    sigma_rad.push_back(push.reference.yaw_sigma_rad);
-    if (push.reference.position_sigma_m > kLeastSigma) {
-      ratio_m.push_back(push.other.position_sigma_m / push.reference.position_sigma_m);
-    }
-    if (push.reference.yaw_sigma_rad > kLeastSigma) {
-      ratio_rad.push_back(push.other.yaw_sigma_rad / push.reference.yaw_sigma_rad);
-    }
-    const auto add = [](Eigen::Vector2d& sum, const OutcomeMoments& moments) {
-      sum += Eigen::Vector2d(moments.position_sigma_m, moments.yaw_sigma_rad).cwiseAbs2();
-    };
-    add(reference_variance, push.reference);
-    add(other_variance, push.other);
-  }
-  const auto pooled = [&](int i) -> nlohmann::ordered_json {
-    if (reference_variance[i] < kLeastSigma * kLeastSigma) return nullptr;
-    return std::sqrt(other_variance[i] / reference_variance[i]);
-  };
-  return {{"displacement_m", spread(displacement_m)}, {"mean_difference_m", spread(mean_m)},
-          {"mean_difference_rad", spread(mean_rad)},  {"run_difference_m", spread(run_m)},
-          {"reference_sigma_m", spread(sigma_m)},     {"reference_sigma_rad", spread(sigma_rad)},
-          {"sigma_ratio_position", ratios(ratio_m)},  {"sigma_ratio_yaw", ratios(ratio_rad)},
-          {"pooled_sigma_ratio_position", pooled(0)}, {"pooled_sigma_ratio_yaw", pooled(1)}};
-}
-
-nlohmann::ordered_json compare(const BenchArguments& arguments, const SimulatorOptions& other,
-                               const std::string& label, ProgressLine& line) {
-  OutcomeComparisonOptions options = arguments.outcomes;
+std::vector<PushOutcomes> compare(const BenchArguments& arguments, OutcomeComparisonOptions options,
+                                  const std::string& label, ProgressLine& line) {
   options.seed = static_cast<std::uint64_t>(arguments.common.seed);
-  options.other = other;
-  return comparisonJson(compareOutcomes(Catalog::standard(), options, [&](int done) {
+  return compareOutcomes(Catalog::standard(), options, [&](int done) {
     line.show(label + ": push " + std::to_string(done) + "/" + std::to_string(options.pushes));
-  }));
+  });
+}
+
+void addDistributions(const BenchArguments& arguments, ProgressLine& line,
+                      nlohmann::ordered_json& result) {
+  OutcomeComparisonOptions options = arguments.outcomes;
+  options.others = {simulatorOf(CasterModel::kPlanar, options.reference.step_s)};
+  const std::vector<PushOutcomes> pushes = compare(arguments, options, "outcomes", line);
+  result["planar_against_featherstone"] = distributionsJson(pushes, 0);
+  result["first_push"] = {{"featherstone", outcomesJson(pushes.front().reference)},
+                          {"planar", outcomesJson(pushes.front().others[0])}};
+}
+
+// A single outcome for each push and model: two draws of swivels are the least that makes sense.
+void addFidelity(const BenchArguments& arguments, ProgressLine& line,
+                 nlohmann::ordered_json& result) {
+  OutcomeComparisonOptions options = arguments.outcomes;
+  options.swivels = 2;
+  options.reference = simulatorOf(CasterModel::kFeatherstone, kFinestStep_s);
+  for (const CasterModel model : {CasterModel::kFeatherstone, CasterModel::kPlanar}) {
+    for (const int rate_hz : kStepRates_hz) {
+      options.others.push_back(simulatorOf(model, 1.0 / rate_hz));
+    }
+  }
+  const std::vector<PushOutcomes> pushes = compare(arguments, options, "fidelity", line);
+  nlohmann::ordered_json& list = result["fidelity"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < options.others.size(); ++i) {
+    nlohmann::ordered_json entry{{"caster_model", toString(options.others[i].caster_model)},
+                                 {"step_s", options.others[i].step_s},
+                                 {"reference_step_s", kFinestStep_s}};
+    entry.update(differencesJson(pushes, i));
+    list.push_back(entry);
+  }
+}
+
+void addLaws(ProgressLine& line, nlohmann::ordered_json& result) {
+  for (const CasterModel model : {CasterModel::kFeatherstone, CasterModel::kPlanar}) {
+    line.show(std::string("laws: ") + toString(model));
+    result["laws"][toString(model)] =
+        lawsJson(Catalog::standard(), simulatorOf(model, SimulatorOptions().step_s));
+  }
 }
 
 nlohmann::ordered_json speedJson(const BenchArguments& arguments) {
@@ -111,17 +103,11 @@ int benchSim(const BenchArguments& arguments) {
                                 {"pushes", arguments.outcomes.pushes},
                                 {"swivels", arguments.outcomes.swivels},
                                 {"seed", arguments.common.seed}};
-  SimulatorOptions planar;
-  planar.caster_model = CasterModel::kPlanar;
-  SimulatorOptions finer;
-  finer.step_s *= 0.25;
-  finer.solver_iterations *= 2;
   if (arguments.outcomes.pushes > 0) {
-    result["planar_against_featherstone"] = compare(arguments, planar, "planar", line);
-    if (arguments.finer) {
-      result["finer_against_featherstone"] = compare(arguments, finer, "finer", line);
-    }
+    addDistributions(arguments, line, result);
+    if (arguments.fidelity) addFidelity(arguments, line, result);
   }
+  if (arguments.laws) addLaws(line, result);
   line.show("measuring speed");
   nlohmann::ordered_json timing = speedJson(arguments);
   timing["wall_s"] = watch.seconds();
@@ -152,8 +138,11 @@ void addBenchCommand(CLI::App& app, Run& run) {
   command->add_option("--speed-time", arguments->speed_s, "Simulated seconds for measuring speed")
       ->check(CLI::Range(1.0, 36000.0))
       ->capture_default_str();
-  command->add_flag("--finer", arguments->finer,
-                    "Also compare Featherstone with itself at a quarter of the step");
+  command->add_flag("--fidelity", arguments->fidelity,
+                    "Also compare both models at several steps with Featherstone at 1/2400 s, push "
+                    "by push");
+  command->add_flag("--laws", arguments->laws,
+                    "Also measure push force, start-up force, coasting and trailing of a cart");
   command->callback([arguments, &run] { run = [arguments] { return benchSim(*arguments); }; });
 }
 

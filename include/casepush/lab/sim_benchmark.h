@@ -14,26 +14,31 @@ struct OutcomeComparisonOptions {
   std::string object = "office_chair";
   std::string robot = "cobot";
   int pushes = 200;
-  int swivels = 20;  ///< Draws of the casters' angles for each push; the same for both.
+  int swivels = 20;  ///< Draws of the casters' angles for each push; the same for all simulators.
   std::uint64_t seed = 1;
   int jobs = 1;  ///< Threads; the result does not depend on it.
   SimulatorOptions reference;
-  SimulatorOptions other;
+  std::vector<SimulatorOptions> others;
   void validate() const;  ///< @throws InputError listing every violation.
 };
 
-/// Where an object comes to rest after one push, over the draws of swivel angles.
+/// Where an object came to rest after one push: x, y [m] and yaw [rad, with whole turns] in its
+/// start frame, for each draw of swivel angles.
+using Outcomes = std::vector<Eigen::Vector3d>;
+
+struct PushOutcomes {
+  Outcomes reference;
+  std::vector<Outcomes> others;  ///< By simulator.
+};
+
 struct OutcomeMoments {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< x, y [m], yaw [rad] in the start frame.
-  double position_sigma_m = 0.0;                   ///< Root of the covariance's trace.
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double position_sigma_m = 0.0;  ///< Root of the covariance's trace.
   double yaw_sigma_rad = 0.0;
 };
 
-struct PushComparison {
-  OutcomeMoments reference;
-  OutcomeMoments other;
-  std::vector<double> run_difference_m;  ///< Of the outcomes with equal swivels.
-};
+/// @pre at least two outcomes.
+OutcomeMoments momentsOf(const Outcomes& outcomes);
 
 /// Random straight and curved pushes of 1 to 3 s from contact distance, each with random swivels.
 ///
@@ -41,9 +46,9 @@ struct PushComparison {
 /// distributions can be compared.
 /// @param progress  Called with the number of finished pushes.
 /// @throws InputError from the catalog and the simulator.
-std::vector<PushComparison> compareOutcomes(const Catalog& catalog,
-                                            const OutcomeComparisonOptions& options,
-                                            const std::function<void(int)>& progress = {});
+std::vector<PushOutcomes> compareOutcomes(const Catalog& catalog,
+                                          const OutcomeComparisonOptions& options,
+                                          const std::function<void(int)>& progress = {});
 
 /// How fast a simulator is on one core, by the thread's CPU time.
 struct SimSpeed {
