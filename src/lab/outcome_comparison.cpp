@@ -80,8 +80,13 @@ void runFor(Simulator& simulator, const Twist2& twist, double duration_s) {
   }
 }
 
+double tiltOf(const Simulator& simulator) {
+  const Eigen::Isometry3d map_T_root = simulator.trueLinkPoses(kObjectId).front();
+  return std::atan2(std::hypot(map_T_root(0, 2), map_T_root(1, 2)), map_T_root(2, 2));
+}
+
 // Where the object comes to rest, in its start frame; yaw counts whole turns.
-Eigen::Vector3d outcomeOf(Simulator& simulator, const RandomPush& push) {
+Eigen::Vector3d outcomeOf(Simulator& simulator, const RandomPush& push, double& tilt_rad) {
   const Pose2 start = simulator.trueObjectPose(kObjectId);
   Pose2 last = start;
   double turned_rad = 0.0;
@@ -90,6 +95,7 @@ Eigen::Vector3d outcomeOf(Simulator& simulator, const RandomPush& push) {
     const Pose2 now = simulator.trueObjectPose(kObjectId);
     turned_rad += yawDifference(last, now);
     last = now;
+    tilt_rad = std::max(tilt_rad, tiltOf(simulator));
   };
   constexpr double kLookPeriodS = 0.1;
   for (double t = 0.0; t < push.duration_s; t += kLookPeriodS) {
@@ -123,22 +129,23 @@ class Comparison {
     std::vector<std::uint64_t> seeds;
     for (int i = 0; i < options_.swivels; ++i) seeds.push_back(random.bits());
     PushOutcomes result;
-    result.reference = outcomesOf(world, push, seeds, options_.reference);
+    result.reference = outcomesOf(world, push, seeds, options_.reference, result.tilt_rad);
+    double tilt_rad = 0.0;
     for (const SimulatorOptions& other : options_.others) {
-      result.others.push_back(outcomesOf(world, push, seeds, other));
+      result.others.push_back(outcomesOf(world, push, seeds, other, tilt_rad));
     }
     return result;
   }
 
  private:
   Outcomes outcomesOf(const WorldModel& world, const RandomPush& push,
-                      const std::vector<std::uint64_t>& seeds,
-                      const SimulatorOptions& options) const {
+                      const std::vector<std::uint64_t>& seeds, const SimulatorOptions& options,
+                      double& tilt_rad) const {
     Simulator simulator(world, robot_, {{object_.name, object_}}, options);
     Outcomes outcomes;
     for (const std::uint64_t seed : seeds) {
       simulator.reset(seed);
-      outcomes.push_back(outcomeOf(simulator, push));
+      outcomes.push_back(outcomeOf(simulator, push, tilt_rad));
     }
     return outcomes;
   }

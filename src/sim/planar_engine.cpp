@@ -73,14 +73,14 @@ void PlanarEngine::findTouches() {
   }
 }
 
-// Faces that meet touch at a top and a bottom edge: one contact in the plane, at half the height.
+// Faces that meet touch at a top and a bottom edge: one contact in the plane.
 void PlanarEngine::addTouch(btPersistentManifold& manifold, btManifoldPoint& point) {
   const Vector3d map_point =
       0.5 * (toEigen(point.getPositionWorldOnA()) + toEigen(point.getPositionWorldOnB()));
   for (auto touch = touches_.rbegin(); touch != touches_.rend(); ++touch) {
     if (touch->a != manifold.getBody0() || touch->b != manifold.getBody1()) break;
     const btManifoldPoint& other = *touch->point;
-    const bool same = (map_point - touch->map_point).head<2>().norm() < kSamePlace_m &&
+    const bool same = (map_point.head<2>() - touch->map_point).norm() < kSamePlace_m &&
                       point.m_normalWorldOnB.dot(other.m_normalWorldOnB) > kSameNormal &&
                       point.m_index0 == other.m_index0 && point.m_index1 == other.m_index1;
     if (!same) continue;
@@ -88,11 +88,12 @@ void PlanarEngine::addTouch(btPersistentManifold& manifold, btManifoldPoint& poi
     touch->point->m_appliedImpulse += point.m_appliedImpulse;
     touch->point->m_appliedImpulseLateral1 += point.m_appliedImpulseLateral1;
     point.m_appliedImpulse = point.m_appliedImpulseLateral1 = 0.0;
-    ++touch->points;
-    touch->map_point.z() += (map_point.z() - touch->map_point.z()) / touch->points;
+    touch->low_m = std::min(touch->low_m, map_point.z());
+    touch->high_m = std::max(touch->high_m, map_point.z());
     return;
   }
-  touches_.push_back({manifold.getBody0(), manifold.getBody1(), &point, map_point});
+  touches_.push_back({manifold.getBody0(), manifold.getBody1(), &point, map_point.head<2>(),
+                      map_point.z(), map_point.z()});
   wake(manifold.getBody0());
   wake(manifold.getBody1());
 }
@@ -136,10 +137,9 @@ void PlanarEngine::setSide(const btCollisionObject* object, const Vector2d& map_
 void PlanarEngine::addContact(const Touch& touch) {
   const btManifoldPoint& point = *touch.point;
   const Vector2d normal(point.m_normalWorldOnB.x(), point.m_normalWorldOnB.y());
-  const Vector2d map_point = touch.map_point.head<2>();
   PlanarContact contact;
-  setSide(touch.a, map_point, normal, contact.a, contact.normal_a, contact.across_a);
-  setSide(touch.b, map_point, -normal, contact.b, contact.normal_b, contact.across_b);
+  setSide(touch.a, touch.map_point, normal, contact.a, contact.normal_a, contact.across_a);
+  setSide(touch.b, touch.map_point, -normal, contact.b, contact.normal_b, contact.across_b);
   const double distance_m = point.getDistance();
   contact.target = -distance_m / step_s_ * (distance_m < 0.0 ? kPenetrationShare : 1.0);
   contact.friction = point.m_combinedFriction;
@@ -161,8 +161,10 @@ void PlanarEngine::readContacts(ContactLog& contacts) {
     const Vector3d normal = toEigen(point.m_normalWorldOnB);
     const Vector3d left = Vector3d(-normal.y(), normal.x(), 0.0).normalized();
     const Vector3d impulse = contact.normal_impulse * normal + contact.across_impulse * left;
-    if (PlanarFurniture* a = furnitureOf(touch.a)) a->noteContact(touch.map_point, impulse);
-    if (PlanarFurniture* b = furnitureOf(touch.b)) b->noteContact(touch.map_point, -impulse);
+    PlanarTouch planar{touch.map_point, touch.low_m, touch.high_m, impulse};
+    if (PlanarFurniture* a = furnitureOf(touch.a)) a->noteTouch(planar);
+    planar.impulse_ns = -impulse;
+    if (PlanarFurniture* b = furnitureOf(touch.b)) b->noteTouch(planar);
   }
 }
 

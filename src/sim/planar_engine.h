@@ -34,8 +34,9 @@ class PlanarEngine final : public Engine {
     const btCollisionObject* a;
     const btCollisionObject* b;
     btManifoldPoint* point;
-    Eigen::Vector3d map_point;
-    int points = 1;  // One above the other, that are the same in the plane.
+    Eigen::Vector2d map_point;
+    double low_m;  // Of points one above the other, that are the same in the plane.
+    double high_m;
   };
 
   void findTouches();

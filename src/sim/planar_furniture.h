@@ -25,9 +25,7 @@ class PlanarFurniture final : public Furniture {
   /// Before each step: gives the solver its velocities, and rows for what it stands on.
   void enter(double step_s, PlanarSolver& solver);
   /// After solving: what a contact gave.
-  void noteContact(const Eigen::Vector3d& map_point, const Eigen::Vector3d& impulse_ns) {
-    supports_.noteContact(body_, map_point, impulse_ns);
-  }
+  void noteTouch(const PlanarTouch& touch) { supports_.noteTouch(touch); }
   /// After all contacts: moves.
   void leave(double step_s, PlanarSolver& solver);
 

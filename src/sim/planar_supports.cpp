@@ -10,7 +10,6 @@ namespace casepush::sim {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 Vector2d leftOf(const Vector2d& v) { return {-v.y(), v.x()}; }
 
@@ -68,8 +67,7 @@ void PlanarSupports::addMass(PlanarBody& body) {
 }
 
 void PlanarSupports::enter(double step_s, const PlanarBody& body, PlanarSolver& solver) {
-  contact_moment_.setZero();
-  contact_lift_ns_ = 0.0;
+  touches_.clear();
   first_caster_ = solver.casters().size();
   first_slide_ = solver.slides().size();
   // The mass holds wheels that spin as their contact rolls. A wheel whose contact has turned since
@@ -121,11 +119,22 @@ void PlanarSupports::addSkids(double step_s, const PlanarBody& body, PlanarSolve
   }
 }
 
-void PlanarSupports::noteContact(const PlanarBody& body, const Vector3d& map_point,
-                                 const Vector3d& impulse_ns) {
-  const Vector2d point = map_point.head<2>() - body.position();
-  contact_moment_ += map_point.z() * impulse_ns.head<2>() - impulse_ns.z() * point;
-  contact_lift_ns_ += impulse_ns.z();
+// Faces bear on each other where the object does not tilt away from the other one: at the height
+// that leaves the loads as they are or, if that is out of reach, at the nearer edge. What is pushed
+// steadily tilts away above, so that the lowest points bear.
+Vector2d PlanarSupports::touchMoment(const PlanarBody& body, const Vector2d& momentum_ns) const {
+  Vector2d sum_ns = Vector2d::Zero();
+  for (const PlanarTouch& touch : touches_) sum_ns += touch.impulse_ns.head<2>();
+  const double squared = sum_ns.squaredNorm();
+  const double level_m =
+      squared > 0.0 ? model_.com_height_m * momentum_ns.dot(sum_ns) / squared : 0.0;
+  Vector2d moment = Vector2d::Zero();
+  for (const PlanarTouch& touch : touches_) {
+    const double height_m = std::clamp(level_m, touch.low_m, touch.high_m);
+    moment += height_m * touch.impulse_ns.head<2>() -
+              touch.impulse_ns.z() * (touch.map_point - body.position());
+  }
+  return moment;
 }
 
 Vector2d PlanarSupports::comMoment(const PlanarBody& body) const {
@@ -144,9 +153,12 @@ void PlanarSupports::leave(double step_s, const PlanarBody& body, const Vector2d
     spin_mps_[i] = body.speed(wheels_[i].forward);
     spin_rad_[i] += step_s * spin_mps_[i] / model_.wheels[i].radius_m;
   }
+  const Vector2d momentum_ns = model_.mass_kg * gained_mps;
   const Vector2d moment_nm =
-      (contact_moment_ - model_.com_height_m * model_.mass_kg * gained_mps) / step_s;
-  if (!balance(body, contact_lift_ns_ / step_s, moment_nm)) return;
+      (touchMoment(body, momentum_ns) - model_.com_height_m * momentum_ns) / step_s;
+  double lift_ns = 0.0;
+  for (const PlanarTouch& touch : touches_) lift_ns += touch.impulse_ns.z();
+  if (!balance(body, lift_ns / step_s, moment_nm)) return;
   const double gain = body.isAtRest() ? 1.0 : -std::expm1(-step_s / kLoadSmoothing_s);
   for (std::size_t i = 0; i < load_n_.size(); ++i) {
     load_n_[i] += gain * (equilibrium_n_[i] - load_n_[i]);

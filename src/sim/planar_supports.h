@@ -8,6 +8,14 @@
 
 namespace casepush::sim {
 
+/// Something that touched an object from the side, somewhere between two heights.
+struct PlanarTouch {
+  Eigen::Vector2d map_point = Eigen::Vector2d::Zero();
+  double low_m = 0.0;
+  double high_m = 0.0;
+  Eigen::Vector3d impulse_ns = Eigen::Vector3d::Zero();  ///< On the object.
+};
+
 /// What an object stands on: wheels, or skids if it has none. Their friction, spin and loads.
 class PlanarSupports {
  public:
@@ -26,9 +34,8 @@ class PlanarSupports {
   void enter(double step_s, const PlanarBody& body, PlanarSolver& solver);
   /// The loads of an object that stands. @pre addMass() was called.
   void settle(const PlanarBody& body);
-  /// An impulse on the object, at a point of the map.
-  void noteContact(const PlanarBody& body, const Eigen::Vector3d& map_point,
-                   const Eigen::Vector3d& impulse_ns);
+  /// After solving: what a contact gave.
+  void noteTouch(const PlanarTouch& touch) { touches_.push_back(touch); }
   /// After PlanarBody::leave(): spins and loads. @param gained_mps  Change of the body's velocity.
   void leave(double step_s, const PlanarBody& body, const Eigen::Vector2d& gained_mps,
              const PlanarSolver& solver);
@@ -44,6 +51,7 @@ class PlanarSupports {
   void rememberImpulses(const PlanarSolver& solver);
   bool balance(const PlanarBody& body, double lift_n, const Eigen::Vector2d& moment_nm);
   Eigen::Vector2d comMoment(const PlanarBody& body) const;
+  Eigen::Vector2d touchMoment(const PlanarBody& body, const Eigen::Vector2d& momentum_ns) const;
 
   const PlanarModel& model_;
   double friction_;
@@ -57,8 +65,7 @@ class PlanarSupports {
   std::vector<double> impulse_ns_;  // Three for each wheel or skid, in the step before.
   std::size_t first_caster_ = 0;
   std::size_t first_slide_ = 0;
-  Eigen::Vector2d contact_moment_ = Eigen::Vector2d::Zero();  // As of shareLoad, times time.
-  double contact_lift_ns_ = 0.0;
+  std::vector<PlanarTouch> touches_;
 };
 
 }  // namespace casepush::sim

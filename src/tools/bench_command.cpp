@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "casepush/lab/sim_benchmark.h"
@@ -39,7 +41,12 @@ void addDistributions(const BenchArguments& arguments, ProgressLine& line,
   OutcomeComparisonOptions options = arguments.outcomes;
   options.others = {simulatorOf(CasterModel::kPlanar, options.reference.step_s)};
   const std::vector<PushOutcomes> pushes = compare(arguments, options, "outcomes", line);
+  std::vector<PushOutcomes> level;
+  std::copy_if(pushes.begin(), pushes.end(), std::back_inserter(level),
+               [](const PushOutcomes& push) { return !isTipped(push); });
   result["planar_against_featherstone"] = distributionsJson(pushes, 0);
+  result["tipped_pushes"] = pushes.size() - level.size();
+  result["planar_against_featherstone_without_tipping"] = distributionsJson(level, 0);
   result["first_push"] = {{"featherstone", outcomesJson(pushes.front().reference)},
                           {"planar", outcomesJson(pushes.front().others[0])}};
 }

@@ -9,6 +9,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kLeastSigma = 1e-6;  // Below it an outcome does not vary.
+constexpr double kTipped_rad = 0.01;  // Far more than wheels yield.
 
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
@@ -103,7 +104,10 @@ Json trailingJson(const Catalog& catalog, const SimulatorOptions& options) {
 
 }  // namespace
 
+bool isTipped(const PushOutcomes& push) { return push.tilt_rad > kTipped_rad; }
+
 Json distributionsJson(const std::vector<PushOutcomes>& pushes, std::size_t other) {
+  if (pushes.empty()) return nullptr;
   std::vector<double> displacement_m, mean_m, mean_rad, sigma_m, sigma_rad, ratio_m, ratio_rad;
   Eigen::Vector2d reference_variance = Eigen::Vector2d::Zero();
   Eigen::Vector2d other_variance = Eigen::Vector2d::Zero();

@@ -12,6 +12,9 @@ namespace casepush {
 nlohmann::ordered_json distributionsJson(const std::vector<PushOutcomes>& pushes,
                                          std::size_t other);
 
+/// Pushes during which the reference leant the object over: the planar model cannot follow there.
+bool isTipped(const PushOutcomes& push);
+
 /// Two simulators push by push: differences of outcomes with equal swivels.
 nlohmann::ordered_json differencesJson(const std::vector<PushOutcomes>& pushes, std::size_t other);
 

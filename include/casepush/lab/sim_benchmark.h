@@ -28,6 +28,7 @@ using Outcomes = std::vector<Eigen::Vector3d>;
 
 struct PushOutcomes {
   Outcomes reference;
+  double tilt_rad = 0.0;  ///< Most that the object leant over in any run of the reference.
   std::vector<Outcomes> others;  ///< By simulator.
 };
 
