@@ -12,6 +12,7 @@
 namespace casepush {
 namespace {
 
+constexpr double kMaxSurfaceFriction = 2.0;
 constexpr double kFloorTolerance_m = 0.01;
 constexpr int kLargestTagId = 586;  // of the family tag36h11
 constexpr double kUpright = 0.999;  // cosine of about 2.5 degrees
@@ -102,6 +103,8 @@ ObjectModel loadObjectModel(const std::filesystem::path& urdf_file) {
 
   model.class_name = reader.text("class");
   model.tags = readTags(reader);
+  model.surface_friction =
+      reader.number("surface_friction", 0.0, kMaxSurfaceFriction, model.surface_friction);
   checkWheels(model, reader.flag("sliding", false), urdf_file.string());
   reader.finish();
 

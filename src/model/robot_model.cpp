@@ -10,6 +10,8 @@
 namespace casepush {
 namespace {
 
+constexpr double kMaxSurfaceFriction = 2.0;
+
 RobotLimits readLimits(YamlReader reader) {
   RobotLimits limits;
   limits.max_speed_mps = reader.number("max_speed_mps", 0.05, 3.0);
@@ -86,6 +88,8 @@ RobotModel loadRobotModel(const std::filesystem::path& urdf_file) {
       YamlReader::fromFile(std::filesystem::path(urdf_file).replace_extension("yaml"));
   model.limits = readLimits(reader.child("limits"));
   model.cameras = readCameras(reader);
+  model.surface_friction =
+      reader.number("surface_friction", 0.0, kMaxSurfaceFriction, model.surface_friction);
   reader.finish();
   return model;
 }

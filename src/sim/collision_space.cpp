@@ -3,6 +3,9 @@
 namespace casepush::sim {
 namespace {
 
+// Of walls and other static boxes.
+constexpr double kBoxFriction = 0.5;
+
 // Bullet would set aside memory for 4096 contact manifolds, which costs more than all the rest.
 std::unique_ptr<btDefaultCollisionConfiguration> makeConfiguration() {
   btDefaultCollisionConstructionInfo info;
@@ -23,6 +26,7 @@ CollisionSpace::CollisionSpace(const Scene& scene)
     auto box = std::make_unique<btCollisionObject>();
     box->setCollisionShape(blueprint.shape.get());
     box->setWorldTransform(blueprint.map_T_box);
+    box->setFriction(kBoxFriction);
     box->setUserPointer(const_cast<CollisionTag*>(&blueprint.tag));
     box->setActivationState(ISLAND_SLEEPING);
     boxes_.push_back(std::move(box));

@@ -6,12 +6,6 @@
 #include "bullet_conversions.h"
 
 namespace casepush::sim {
-namespace {
-
-// Chair against bumper: products of both give about 0.36.
-constexpr double kBodyFriction = 0.6;
-
-}  // namespace
 
 FurnitureState stateAtRest(const FurnitureBlueprint& blueprint, const Pose2& map_T_object,
                            Random& random) {
@@ -44,7 +38,7 @@ FurnitureState carriedOver(const FurnitureState& state, const FurnitureBlueprint
 double surfaceFriction(const FurnitureBlueprint& blueprint, const BodyBlueprint& body,
                        const Floor& floor) {
   const bool rolls = !blueprint.wheel_radius_m.empty();
-  return body.wheel >= 0 || !rolls ? floor.friction : kBodyFriction;
+  return body.wheel >= 0 || !rolls ? floor.friction : blueprint.model->surface_friction;
 }
 
 }  // namespace casepush::sim

@@ -23,7 +23,7 @@ PlanarRobot::PlanarRobot(const RobotBlueprint& blueprint, const RobotState& stat
   collider_.setCollisionFlags(0);  // Bullet takes a plain object for a static one.
   collider_.setCollisionShape(blueprint.shape.get());
   collider_.setUserPointer(const_cast<CollisionTag*>(&blueprint.tag));
-  collider_.setFriction(kBumperFriction);
+  collider_.setFriction(blueprint.surface_friction);
   collider_.setActivationState(DISABLE_DEACTIVATION);
   placeCollider();
 }

@@ -10,6 +10,7 @@ namespace casepush::sim {
 RobotBlueprint makeBlueprint(const RobotModel& robot) {
   RobotBlueprint result;
   result.limits = robot.limits;
+  result.surface_friction = robot.surface_friction;
   std::vector<int> links(robot.mechanism.links.size());
   std::iota(links.begin(), links.end(), 0);
   result.mass = composeMass(robot.mechanism, links);
@@ -37,7 +38,7 @@ RobotBase::RobotBase(const RobotBlueprint& blueprint, const RobotState& state, b
   btRigidBody::btRigidBodyConstructionInfo info(blueprint.mass.mass_kg, nullptr,
                                                 blueprint.shape.get(), inertia);
   info.m_startWorldTransform = state.map_T_com;
-  info.m_friction = kBumperFriction;
+  info.m_friction = blueprint.surface_friction;
   body_ = std::make_unique<btRigidBody>(info);
   body_->setLinearFactor(btVector3(1, 1, 0));
   body_->setAngularFactor(btVector3(0, 0, 1));

@@ -13,12 +13,10 @@
 
 namespace casepush::sim {
 
-/// Of the robot's surface; coefficients of two bodies in contact are multiplied.
-constexpr double kBumperFriction = 0.6;
-
 /// All of the robot that stays the same whenever the world is rebuilt.
 struct RobotBlueprint {
   RobotLimits limits;
+  double surface_friction = 0.0;
   MassProperties mass;
   Eigen::Isometry3d base_T_com = Eigen::Isometry3d::Identity();  ///< Axes of the base frame.
   CompoundShape shape;

@@ -30,6 +30,8 @@ struct ObjectModel {
   Mechanism mechanism;
   std::vector<Caster> casters;  ///< Empty only for objects declared as sliding.
   std::vector<TagMount> tags;
+  /// Coulomb coefficient of what is not a wheel; those of two bodies in contact are multiplied.
+  double surface_friction = 0.6;
 
   /// For collision checking: every link at zero joint angles, and each swivelling caster as the
   /// cylinder it can sweep.

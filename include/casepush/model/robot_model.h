@@ -43,6 +43,8 @@ struct RobotModel {
   Solid
       solid;  ///< Every collision shape in the base frame; `part` is the link (base, basket, body).
   double radius_m = 0.0;  ///< Circumscribed radius of the solid.
+  /// Coulomb coefficient; those of two bodies in contact are multiplied.
+  double surface_friction = 0.6;
 };
 
 /// Reads `<stem>.urdf` and `<stem>.yaml`. @throws InputError naming file, element and reason.

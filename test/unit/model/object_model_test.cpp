@@ -77,6 +77,14 @@ TEST_F(LoadObjectModel, locksSwivels) {
   }
 }
 
+TEST_F(LoadObjectModel, readsSurfaceFriction) {
+  EXPECT_EQ(load(smallCartUrdf(), smallCartYaml()).surface_friction, 0.6);
+  EXPECT_EQ(load(smallCartUrdf(), smallCartYaml() + "surface_friction: 0.2\n").surface_friction,
+            0.2);
+  EXPECT_EQ(errorOf(smallCartUrdf(), smallCartYaml() + "surface_friction: -1\n"),
+            "cart.yaml: surface_friction: is -1; must be a number in [0, 2]");
+}
+
 TEST_F(LoadObjectModel, sweepsEachSwivellingCaster) {
   const ObjectModel cart = load(smallCartUrdf(), smallCartYaml());
   ASSERT_EQ(cart.solid.size(), 3U);

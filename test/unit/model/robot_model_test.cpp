@@ -44,6 +44,12 @@ TEST_F(LoadRobotModel, readsLimitsSolidAndCameras) {
   EXPECT_NEAR(camera.max_view_angle_rad, 70.0 * M_PI / 180.0, 1e-12);
 }
 
+TEST_F(LoadRobotModel, readsSurfaceFriction) {
+  EXPECT_EQ(load(smallRobotUrdf(), smallRobotYaml()).surface_friction, 0.6);
+  EXPECT_EQ(load(smallRobotUrdf(), smallRobotYaml() + "surface_friction: 1.1\n").surface_friction,
+            1.1);
+}
+
 TEST_F(LoadRobotModel, turnsTheHousingIntoTheOpticalFrame) {
   const CameraModel camera = load(smallRobotUrdf(), smallRobotYaml()).cameras[0];
   const Eigen::Matrix3d rotation = camera.base_T_camera.linear();

@@ -153,6 +153,30 @@ TEST_P(FurnitureModels, resistsASteadyPushByLoadAndLeverArm) {
   }
 }
 
+// On ice, only the bumper moves the cart: across by friction times what it moves it along.
+TEST_P(FurnitureModels, rubsAsSurfacesSay) {
+  WorldModel world = test::makeCartWorld();
+  world.floor.friction = 0.0;
+  world.floor.rolling_lever_arm_m = 0.0;
+  world.map_T_robot = Pose2(-0.551, 0.0, 0.0);
+  for (const double coefficient : {0.0, 0.4, 0.9}) {
+    ObjectModel cart = test::makeCart();
+    RobotModel robot = test::makeRobot();
+    cart.surface_friction = coefficient;
+    robot.surface_friction = 0.5;
+    const Scene scene(world, robot, {{"cart", cart}});
+    WorldState state = restingState(scene);
+    setRolling(state.furniture[0], 0.0, 0.0, 0.05);
+    PhysicsWorld physics(scene, state, options_);
+    physics.setRobotTarget({20.0, 20.0, 0.0});  // Full force, along and across.
+    ContactLog contacts;
+    for (int i = 0; i < 60; ++i) physics.step(contacts);
+    const btVector3 moved = physics.furniture(0).state().base_velocity_mps;
+    EXPECT_GT(moved.x(), 0.3);
+    EXPECT_NEAR(moved.y() / moved.x(), 0.5 * coefficient, 0.02) << coefficient;
+  }
+}
+
 TEST_P(FurnitureModels, castersTrailAfterAStraightPush) {
   WorldModel world = test::makeCartWorld();
   world.map_T_robot = Pose2(-0.56, 0.0, 0.0);
