@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bullet_conversions.h"
 #include "casepush/common/input_error.h"
+#include "casepush/model/catalog.h"
 #include "contact_log.h"
 #include "physics_world.h"
 #include "scene.h"
 #include "sim/motions.h"
 #include "sim/scenes.h"
+#include "wheel_loads.h"
 
 namespace casepush::sim {
 namespace {
@@ -62,6 +65,90 @@ TEST(CasterModels, shareTheLoadOfACartThatStands) {
     loads.push_back(physics.furniture(0).wheelLoadN());
   }
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(loads[0][i], loads[1][i], 2.0) << "wheel " << i;
+}
+
+// The same for every model and object: sum of loads and moments about the floor, and equal springs.
+void expectStatics(const FurnitureBlueprint& blueprint, const Furniture& furniture,
+                   const std::string& what) {
+  const std::vector<Eigen::Isometry3d> links = furniture.map_T_links();
+  const Mechanism& mechanism = blueprint.model->mechanism;
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Eigen::Vector3d com = links[i] * mechanism.links[i].link_T_inertial.translation();
+    moment += kGravity_mps2 * mechanism.links[i].mass_kg * com.head<2>();
+  }
+  std::vector<Eigen::Vector2d> points;
+  for (const Caster& caster : blueprint.model->casters) {
+    const auto wheel = static_cast<std::size_t>(caster.wheel_joint) + 1;
+    points.emplace_back(links[wheel].translation().head<2>());
+  }
+  const double weight_n = blueprint.mass_kg * kGravity_mps2;
+  std::vector<double> expected(points.size());
+  ASSERT_TRUE(shareLoad(points, weight_n, moment, expected)) << what;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(furniture.wheelLoadN()[i], expected[i], 0.005 * weight_n) << what << ", " << i;
+  }
+}
+
+TEST(CasterModels, bearLoadsAsStaticsSaysAtRest) {
+  const Catalog catalog = Catalog::standard();
+  for (const std::string& name : catalog.objectNames()) {
+    const ObjectModel object = catalog.object(name);
+    if (object.casters.empty()) continue;
+    WorldModel world = test::makeWorld();
+    world.objects.push_back({"object", name, Pose2(0.3, 0.2, 0.4), 0});
+    const Scene scene(world, test::makeRobot(), {{name, object}});
+    for (const StepOptions& step : {StepOptions(), planar()}) {
+      PhysicsWorld physics(scene, restingState(scene, 3), step);
+      ContactLog contacts;
+      for (int i = 0; i < 240; ++i) physics.step(contacts);
+      expectStatics(scene.furniture[0], physics.furniture(0),
+                    name + ", " + toString(step.caster_model));
+    }
+  }
+}
+
+// Mean over half a second of a steady push.
+std::vector<double> loadsUnderPush(const Scene& scene, const WorldState& state,
+                                   const StepOptions& options) {
+  constexpr int kMeanSteps = 120;
+  PhysicsWorld physics(scene, state, options);
+  physics.setRobotTarget({0.3, 0.0, 0.0});
+  ContactLog contacts;
+  for (int i = 0; i < 240 * 2; ++i) physics.step(contacts);
+  std::vector<double> loads(physics.furniture(0).wheelLoadN().size(), 0.0);
+  for (int i = 0; i < kMeanSteps; ++i) {
+    physics.step(contacts);
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      loads[k] += physics.furniture(0).wheelLoadN()[k] / kMeanSteps;
+    }
+  }
+  return loads;
+}
+
+// Pushed faces bear at their lowest points, and that shifts loads forwards. In the reference they also
+// rub up and down, which adds some load.
+TEST(CasterModels, shiftLoadsAlikeUnderAPush) {
+  const Catalog catalog = Catalog::standard();
+  for (const std::string& name : catalog.objectNames()) {
+    const ObjectModel object = catalog.object(name);
+    if (object.casters.empty()) continue;
+    WorldModel world = test::makeWorld();
+    world.map_T_robot = Pose2(-object.radius_m - 0.4, 0.0, 0.0);
+    world.objects.push_back({"object", name, Pose2(), 0});
+    const Scene scene(world, test::makeRobot(), {{name, object}});
+    WorldState state = restingState(scene, 1);
+    for (double& angle_rad : state.furniture[0].joint_rad) angle_rad = 0.0;  // Trailing.
+    const std::vector<double> reference = loadsUnderPush(scene, state, {});
+    const std::vector<double> other = loadsUnderPush(scene, state, planar());
+    const double weight_n = scene.furniture[0].mass_kg * kGravity_mps2;
+    EXPECT_NEAR(std::accumulate(reference.begin(), reference.end(), 0.0), weight_n,
+                0.04 * weight_n);
+    EXPECT_NEAR(std::accumulate(other.begin(), other.end(), 0.0), weight_n, 0.001 * weight_n);
+    for (std::size_t i = 0; i < other.size(); ++i) {
+      EXPECT_NEAR(reference[i], other[i], 0.04 * weight_n) << name << ", wheel " << i;
+    }
+  }
 }
 
 // Without friction in bearings and wheels nothing takes energy: wheels roll, and a swivel turns
