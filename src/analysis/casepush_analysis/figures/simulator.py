@@ -17,7 +17,7 @@ COLOURS = {'featherstone': '#1f5fa8', 'planar': '#d2691e'}
 FLOORS = {2.2: 'concrete', 2.4: 'tile', 3.3: 'asphalt', 4.5: 'carpet'}
 FLOOR_COLOURS = {2.2: '#7f7f7f', 2.4: '#2b8cbe', 3.3: '#31a354', 4.5: '#b5477a'}
 ELLIPSE_SIGMA = 2.0
-PALETTE = 64
+PALETTE = 256
 
 
 def draw_laws(bench, path):
