@@ -4,6 +4,7 @@
 #include "casepush/common/random.h"
 #include "casepush/lab/push_run.h"
 #include "casepush/planning/robot_path_planner.h"
+#include "push_ways.h"
 
 namespace casepush {
 namespace {
@@ -33,7 +34,8 @@ class ProblemChecker {
         robot_(catalog.robot(world.robot)),
         roomy_object_(checker_.footprint(object_.solid, clearance_m)),
         roomy_robot_(checker_.footprint(robot_.solid, 0.05)),
-        paths_(robot_, RobotPathOptions{}) {
+        paths_(robot_, RobotPathOptions{}),
+        ways_(checker_, object_, robot_) {
     std::vector<PlacedSolid> others;
     for (const ObjectPlacement& other : world.objects) {
       if (other.id != placement.id) {
@@ -65,6 +67,9 @@ class ProblemChecker {
     return paths_.plan(checker_, from, to, to.yaw()).found;
   }
 
+  /// The robot finds room behind the object all the way; not so in corners and along walls.
+  bool pushable(const Pose2& start, const Pose2& goal) const { return ways_.lead(start, goal); }
+
  private:
   std::shared_ptr<const Map> map_;
   CollisionChecker checker_;
@@ -73,6 +78,7 @@ class ProblemChecker {
   std::shared_ptr<const Footprint> roomy_object_;
   std::shared_ptr<const Footprint> roomy_robot_;
   RobotPathPlanner paths_;
+  PushWays ways_;
 };
 
 }  // namespace
@@ -107,7 +113,8 @@ PushProblem randomProblem(const Catalog& catalog, const WorldModel& world,
     }
     const std::optional<Pose2> robot_start = checker.robotBeside(start, random);
     const std::optional<Pose2> robot_end = checker.robotBeside(goal, random);
-    if (!robot_start || !robot_end || !checker.connected(*robot_start, *robot_end)) {
+    if (!robot_start || !robot_end || !checker.connected(*robot_start, *robot_end) ||
+        !checker.pushable(start, goal)) {
       continue;
     }
     placement.map_T_object = start;

@@ -1,7 +1,7 @@
 #include <cmath>
-#include <ctime>
 
 #include "casepush/lab/sim_benchmark.h"
+#include "thread_time.h"
 
 namespace casepush {
 namespace {
@@ -11,12 +11,6 @@ constexpr double kHallHalfM = 10.0;
 constexpr double kPushSpeedMps = 0.4;
 constexpr double kRunS = 10.0;
 constexpr int kRecreations = 200;
-
-double threadSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 StaticBox boxAt(const std::string& name, const Eigen::Vector3d& size_m, double x, double y) {
   StaticBox box;

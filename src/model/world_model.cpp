@@ -38,6 +38,9 @@ class WorldReader {
     if (reader_.has("static_map")) {
       readStaticMap();
     }
+    if (std::optional<YamlReader> cloud = reader_.optionalChild("point_cloud")) {
+      readPointCloud(*cloud);
+    }
     for (YamlReader& entry : reader_.children("objects")) {
       readObject(entry);
     }
@@ -113,6 +116,28 @@ class WorldReader {
                        "is '" + file.string() + "'; must be an OctoMap file, .bt or .ot");
     }
     world_.static_map = folder_ / file;
+  }
+
+  void readPointCloud(YamlReader& reader) {
+    PointCloudFile cloud;
+    cloud.file = reader.text("file");
+    if (cloud.file.extension() != ".pcd" && cloud.file.extension() != ".xyz") {
+      throw InputError(reader.where("file"),
+                       "is '" + cloud.file.string() + "'; must be a point cloud, .pcd or .xyz");
+    }
+    cloud.file = folder_ / cloud.file;
+    cloud.resolution_m = reader.number("resolution_m", 0.01, 0.5, cloud.resolution_m);
+    if (reader.has("height_m")) {
+      const std::vector<double> height_m = reader.numbers("height_m", 2);
+      cloud.low_m = height_m[0];
+      cloud.high_m = height_m[1];
+      if (!(0.0 <= cloud.low_m && cloud.low_m < cloud.high_m && cloud.high_m <= kLargestHeight_m)) {
+        throw InputError(reader.where("height_m"),
+                         "must be [low, high] with 0 <= low < high <= 100 m");
+      }
+    }
+    reader.finish();
+    world_.point_cloud = std::move(cloud);
   }
 
   void readObject(YamlReader& reader) {

@@ -96,6 +96,12 @@ std::string worldYaml(const WorldModel& world) {
   if (world.static_map) {
     yaml << "static_map: " << quoted(std::filesystem::absolute(*world.static_map).string()) << "\n";
   }
+  if (world.point_cloud) {
+    const PointCloudFile& cloud = *world.point_cloud;
+    yaml << "point_cloud: {file: " << quoted(std::filesystem::absolute(cloud.file).string())
+         << ", resolution_m: " << text(cloud.resolution_m)
+         << ", height_m: " << list(Eigen::Vector2d(cloud.low_m, cloud.high_m)) << "}\n";
+  }
   yaml << "\nrobot: {model: " << quoted(world.robot) << ", " << poseText(world.map_T_robot) << "}\n"
        << "objects:\n";
   for (const ObjectPlacement& object : world.objects) {

@@ -11,6 +11,7 @@ namespace casepush {
 namespace {
 
 constexpr char kOpticalSuffix[] = "_optical_frame";
+constexpr char kRangeSuffix[] = "_frame";
 constexpr double kQuaternionTolerance = 1e-3;
 
 std_msgs::Header mapHeader(double stamp_s) {
@@ -229,6 +230,8 @@ std::vector<ObjectState> fromMessage(const PushableObjectArray& message) {
 }
 
 std::string opticalFrame(const std::string& camera) { return camera + kOpticalSuffix; }
+
+std::string rangeFrame(const std::string& range_sensor) { return range_sensor + kRangeSuffix; }
 
 std::string cameraOfFrame(const std::string& frame_id) {
   const std::string suffix = kOpticalSuffix;

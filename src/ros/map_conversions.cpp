@@ -36,14 +36,13 @@ void checkSize(const sensor_msgs::PointCloud2& message) {
   }
 }
 
-}  // namespace
-
-sensor_msgs::PointCloud2 toMessage(const std::vector<Eigen::Vector3f>& map_points, double stamp_s) {
+sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points, int rows,
+                               const std::string& frame, double stamp_s) {
   sensor_msgs::PointCloud2 message;
   message.header.stamp = toRosTime(stamp_s);
-  message.header.frame_id = names::kMapFrame;
-  message.height = 1;
-  message.width = static_cast<std::uint32_t>(map_points.size());
+  message.header.frame_id = frame;
+  message.height = static_cast<std::uint32_t>(rows);
+  message.width = static_cast<std::uint32_t>(points.size()) / message.height;
   for (const char* name : {"x", "y", "z"}) {
     sensor_msgs::PointField field;
     field.name = name;
@@ -54,12 +53,24 @@ sensor_msgs::PointCloud2 toMessage(const std::vector<Eigen::Vector3f>& map_point
   }
   message.point_step = 3 * sizeof(float);
   message.row_step = message.point_step * message.width;
-  message.is_dense = true;
-  message.data.resize(message.row_step);
-  for (std::size_t i = 0; i < map_points.size(); ++i) {
-    std::memcpy(&message.data[i * message.point_step], map_points[i].data(), message.point_step);
+  message.is_dense = false;
+  message.data.resize(message.row_step * message.height);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::memcpy(&message.data[i * message.point_step], points[i].data(), message.point_step);
   }
   return message;
+}
+
+}  // namespace
+
+sensor_msgs::PointCloud2 toMessage(const std::vector<Eigen::Vector3f>& map_points, double stamp_s) {
+  sensor_msgs::PointCloud2 message = cloud(map_points, 1, names::kMapFrame, stamp_s);
+  message.is_dense = true;
+  return message;
+}
+
+sensor_msgs::PointCloud2 toMessage(const RangeScan& scan) {
+  return cloud(scan.points, scan.layers, rangeFrame(scan.sensor), scan.stamp_s);
 }
 
 std::vector<Eigen::Vector3f> fromMessage(const sensor_msgs::PointCloud2& message) {

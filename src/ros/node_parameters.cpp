@@ -165,6 +165,23 @@ void readExploration(ParameterReader& reader, ExplorationOptions& options) {
   reader.check([&] { options.validate(); });
 }
 
+/// Calls `change` for each name in a list like "front left".
+void changeSensors(ParameterReader& reader, const std::string& key, RobotModel& robot,
+                   void (*change)(RobotModel&, const std::string&)) {
+  std::string list;
+  reader.read(key, list);
+  std::istringstream names(list);
+  for (std::string name; names >> name;) {
+    reader.check([&] {
+      try {
+        change(robot, name);
+      } catch (const InputError& error) {
+        throw InputError(key, error.what());
+      }
+    });
+  }
+}
+
 /// "x y yaw_deg": metres and degrees.
 Pose2 parsePose(const std::string& text, const std::string& key) {
   std::istringstream stream(text);
@@ -212,6 +229,8 @@ SimNodeParameters loadSimNodeParameters(ParameterReader reader, const Catalog& c
     parameters.robot = catalog.robotOf(parameters.world);
     parameters.models = catalog.objectsOf(parameters.world);
   });
+  changeSensors(reader, "disabled_sensors", parameters.robot, disableSensor);
+  changeSensors(reader, "exact_sensors", parameters.robot, makeSensorExact);
   reader.finish();
   return parameters;
 }

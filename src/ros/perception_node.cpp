@@ -35,7 +35,7 @@ PerceptionNode::PerceptionNode(PerceptionNodeParameters parameters, ros::NodeHan
                                                   names::kRobotMarkers.queue_size, true);
   robot_markers_.publish(robotMarkers(parameters_.furnishing.robot.mechanism));
   if (parameters_.publish_camera_frames) {
-    static_transforms_.sendTransform(cameraTransforms(parameters_.furnishing.robot));
+    static_transforms_.sendTransform(sensorTransforms(parameters_.furnishing.robot));
   }
   filter_.registerCallback(boost::function<void(const AprilTagDetectionArray::ConstPtr&)>(
       [this](const AprilTagDetectionArray::ConstPtr& message) { onTags(*message); }));

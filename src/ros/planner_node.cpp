@@ -48,18 +48,18 @@ PlannerNode::PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handl
   objects_subscriber_ = handle_.subscribe(names::kObjects.name, 1, &PlannerNode::onObjects, this,
                                           ros::TransportHints().tcpNoDelay());
   if (parameters_.map_file.empty()) {
-    points_subscriber_ = handle_.subscribe(names::kPoints.name, names::kPoints.queue_size,
-                                           &PlannerNode::onPoints, this);
+    survey_subscriber_ = handle_.subscribe(names::kSurvey.name, names::kSurvey.queue_size,
+                                           &PlannerNode::onSurvey, this);
   } else {
     setMap(Map::load(parameters_.map_file));
   }
   server_.start();
 }
 
-void PlannerNode::onPoints(const sensor_msgs::PointCloud2& message) {
+void PlannerNode::onSurvey(const sensor_msgs::PointCloud2& message) {
   try {
     if (message.header.frame_id != names::kMapFrame) {
-      throw InputError("points", "are in frame '" + message.header.frame_id + "', must be in map");
+      throw InputError("survey", "is in frame '" + message.header.frame_id + "', must be in map");
     }
     Map map(parameters_.map_resolution_m);
     map.addSurvey(fromMessage(message));
@@ -119,7 +119,7 @@ PlanResult PlannerNode::plan(const PlanPushGoal& goal) {
     cases = cases_;
   }
   if (planner == nullptr) {
-    return invalid("there is no map yet (topic points, or parameter map_file)");
+    return invalid("there is no map yet (topic survey, or parameter map_file)");
   }
   const PlanRequest complete = request(goal);
   cases.erase(std::remove_if(

@@ -40,11 +40,15 @@ geometry_msgs::TransformStamped stamped(const std::string& parent, const std::st
 
 }  // namespace
 
-std::vector<geometry_msgs::TransformStamped> cameraTransforms(const RobotModel& robot) {
+std::vector<geometry_msgs::TransformStamped> sensorTransforms(const RobotModel& robot) {
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const CameraModel& camera : robot.cameras) {
     transforms.push_back(stamped(names::kBaseFrame, opticalFrame(camera.name), 0.0,
                                  toTransformMessage(camera.base_T_camera)));
+  }
+  for (const RangeSensorModel& sensor : robot.range_sensors) {
+    transforms.push_back(stamped(names::kBaseFrame, rangeFrame(sensor.name), 0.0,
+                                 toTransformMessage(sensor.base_T_sensor)));
   }
   return transforms;
 }
@@ -66,8 +70,9 @@ SimNode::SimNode(SimNodeParameters parameters, ros::NodeHandle handle)
   contacts_ = advertise(names::kContacts, BodyContactArray());
   true_loads_ = handle_.advertise<ObjectLoadArray>(names::kTrueLoads.name,
                                                    names::kTrueLoads.queue_size, true);
-  points_ = handle_.advertise<sensor_msgs::PointCloud2>(names::kPoints.name,
-                                                        names::kPoints.queue_size, true);
+  points_ = advertise(names::kPoints, sensor_msgs::PointCloud2());
+  survey_ = handle_.advertise<sensor_msgs::PointCloud2>(names::kSurvey.name,
+                                                        names::kSurvey.queue_size, true);
   command_ = handle_.subscribe(names::kCommandVelocity.name, names::kCommandVelocity.queue_size,
                                &SimNode::onCommand, this, ros::TransportHints().tcpNoDelay());
   objects_ = handle_.subscribe(names::kObjects.name, 1, &SimNode::onObjects, this,
@@ -76,7 +81,7 @@ SimNode::SimNode(SimNodeParameters parameters, ros::NodeHandle handle)
   set_poses_ = handle_.advertiseService(names::kSetPoseService, &SimNode::onSetPoses, this);
   set_load_ = handle_.advertiseService(names::kSetLoadService, &SimNode::onSetLoad, this);
   step_ = handle_.advertiseService(names::kStepService, &SimNode::onStep, this);
-  static_transforms_.sendTransform(cameraTransforms(parameters_.robot));
+  static_transforms_.sendTransform(sensorTransforms(parameters_.robot));
   publishSurvey();
   publishLoads();
   restartPacing();
@@ -110,6 +115,7 @@ std::int64_t SimNode::stepsToPeriodEnd() const {
 }
 
 void SimNode::advance(std::int64_t steps) {
+  simulator_.setScanning(points_.getNumSubscribers() > 0);  // Rays cost time.
   while (steps > 0 && ros::ok()) {
     const std::int64_t to_end = stepsToPeriodEnd();
     const std::int64_t now = std::min(steps, to_end);
@@ -147,6 +153,9 @@ void SimNode::publishMotion() {
 void SimNode::publishSensors() {
   for (const TagFrame& frame : simulator_.takeTagFrames()) {
     tags_.publish(toMessage(frame));
+  }
+  for (const RangeScan& scan : simulator_.takeScans()) {
+    points_.publish(toMessage(scan));
   }
 }
 
@@ -186,7 +195,7 @@ void SimNode::publishLoads() {
 void SimNode::publishSurvey() {
   const std::vector<Eigen::Vector3f> points =
       surveyPoints(parameters_.world, parameters_.survey_resolution_m);
-  points_.publish(toMessage(points, simulator_.time()));
+  survey_.publish(toMessage(points, simulator_.time()));
 }
 
 bool SimNode::isCommanded() const { return simulator_.time() - last_command_s_ < kCommandedS; }

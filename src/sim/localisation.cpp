@@ -3,55 +3,60 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensor_timing.h"
+
 namespace casepush::sim {
-namespace {
 
-constexpr double kBound = 3.0;             // Of the localisation error, in standard deviations.
-constexpr double kScaleDeviation = 0.005;  // Of the wheels' radius.
-
-Twist2 scaled(const Twist2& twist, double factor) {
-  return {factor * twist.vx_mps, factor * twist.vy_mps, factor * twist.wz_rps};
-}
-
-}  // namespace
-
-Localisation::Localisation(const SimulatorOptions& options, const Pose2& map_T_robot)
-    : noise_(options.sensor_noise),
-      sigma_m_(options.localisation_sigma_m),
-      sigma_rad_(options.localisation_sigma_rad),
-      correlation_s_(options.localisation_correlation_s),
-      random_(Random::stream(options.seed, "localisation")),
-      map_T_robot_(map_T_robot) {
+PoseError::PoseError(const LocalisationModel& model, bool noise, Random random)
+    : model_(model),
+      noise_(noise && model.switches.noise),
+      random_(random),
+      sigma_(model.position_sigma_m, model.position_sigma_m, model.yaw_sigma_rad) {
   if (!noise_) return;
-  scale_ = 1.0 + std::clamp(random_.normal(kScaleDeviation), -kBound * kScaleDeviation,
-                            kBound * kScaleDeviation);
-  update(1e9, map_T_robot,
-         {});  // Much longer than the correlation: a draw from the stationary law.
+  for (int i = 0; i < 3; ++i) wandering_[i] = random_.normal(sigma_[i]);
 }
+
+void PoseError::update(double step_s) {
+  if (!noise_) return;
+  const double decay = std::exp(-step_s / model_.correlation_s);
+  const double gain = std::sqrt(-std::expm1(-2.0 * step_s / model_.correlation_s));
+  for (int i = 0; i < 3; ++i) {
+    wandering_[i] = decay * wandering_[i] + gain * random_.normal(sigma_[i]);
+  }
+}
+
+Eigen::Vector3d PoseError::value() const {
+  Eigen::Vector3d error = wandering_;
+  const double length_m = error.head<2>().norm();
+  if (length_m > model_.position_bound_m) error.head<2>() *= model_.position_bound_m / length_m;
+  error.z() = std::clamp(error.z(), -model_.yaw_bound_rad, model_.yaw_bound_rad);
+  return error;
+}
+
+Localisation::Localisation(const RobotModel& robot, bool noise, std::uint64_t seed,
+                           const Pose2& map_T_robot)
+    : odometry_(robot.odometry, noise, noiseStream(robot.odometry.switches, seed, "odometry")),
+      error_(robot.localisation, noise,
+             noiseStream(robot.localisation.switches, seed, "localisation")),
+      map_T_robot_(map_T_robot) {}
 
 void Localisation::update(double step_s, const Pose2& map_T_robot, const Twist2& robot_twist) {
-  const Eigen::Vector3d moved = logSe2(map_T_robot_.inverse() * map_T_robot);
-  odom_T_robot_ = odom_T_robot_ * expSe2(scale_ * moved);
+  odometry_.update(step_s, logSe2(map_T_robot_.inverse() * map_T_robot), robot_twist);
+  error_.update(step_s);
   map_T_robot_ = map_T_robot;
-  robot_twist_ = scaled(robot_twist, scale_);
-  if (!noise_) return;
-  const double decay = std::exp(-step_s / correlation_s_);
-  const double gain = std::sqrt(1.0 - decay * decay);
-  const Eigen::Vector3d sigma(sigma_m_, sigma_m_, sigma_rad_);
-  for (int i = 0; i < 3; ++i) {
-    const double next = decay * error_[i] + gain * random_.normal(sigma[i]);
-    error_[i] = std::clamp(next, -kBound * sigma[i], kBound * sigma[i]);
-  }
 }
 
 void Localisation::relocate(const Pose2& map_T_robot) {
   map_T_robot_ = map_T_robot;
-  robot_twist_ = {};
+  odometry_.stop();
 }
 
 OdometryReading Localisation::reading(double time_s) const {
-  const Pose2 map_T_estimated_robot = map_T_robot_ * expSe2(error_);
-  return {time_s, map_T_estimated_robot * odom_T_robot_.inverse(), odom_T_robot_, robot_twist_};
+  const Eigen::Vector3d error = error_.value();
+  const Pose2 map_T_estimated_robot(map_T_robot_.x() + error.x(), map_T_robot_.y() + error.y(),
+                                    map_T_robot_.yaw() + error.z());
+  const Pose2& odom_T_robot = odometry_.odom_T_robot();
+  return {time_s, map_T_estimated_robot * odom_T_robot.inverse(), odom_T_robot, odometry_.twist()};
 }
 
 }  // namespace casepush::sim

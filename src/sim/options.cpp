@@ -20,9 +20,6 @@ void SimulatorOptions::validate() const {
   violations.require("step_s", step_s, 1e-5, 0.02);
   violations.require("solver_iterations", solver_iterations, 1, 10000);
   violations.require("command_timeout_s", command_timeout_s, 0.001, 3600.0);
-  violations.require("localisation_sigma_m", localisation_sigma_m, 0.0, 1.0);
-  violations.require("localisation_sigma_rad", localisation_sigma_rad, 0.0, 1.0);
-  violations.require("localisation_correlation_s", localisation_correlation_s, 0.001, 1e6);
   violations.throwIfAny("simulator options");
 }
 

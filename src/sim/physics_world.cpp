@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "bullet_conversions.h"
 #include "featherstone_engine.h"
 #include "planar_engine.h"
 
@@ -11,17 +10,6 @@ namespace {
 
 // A contact this deep at the start is an overlap rather than a touch.
 constexpr double kOverlap_m = 0.001;
-
-struct AnyHit : btCollisionWorld::RayResultCallback {
-  bool needsCollision(btBroadphaseProxy* proxy) const override {
-    return (proxy->m_collisionFilterGroup & (kStaticGroup | kFurnitureGroup | kWheelGroup)) != 0;
-  }
-  btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool) override {
-    m_collisionObject = result.m_collisionObject;
-    m_closestHitFraction = 0.0;  // Nothing closer can be found: ends the search.
-    return 0.0;
-  }
-};
 
 std::unique_ptr<Engine> makeEngine(const Scene& scene, CollisionSpace& space,
                                    const WorldState& state, const StepOptions& options) {
@@ -43,12 +31,6 @@ WorldState PhysicsWorld::state() const {
     state.furniture.push_back(furniture(static_cast<int>(i)).state());
   }
   return state;
-}
-
-bool PhysicsWorld::isClear(const Eigen::Vector3d& from_map, const Eigen::Vector3d& to_map) const {
-  AnyHit hit;
-  engine_->collisions().rayTest(toBullet(from_map), toBullet(to_map), hit);
-  return !hit.hasHit();
 }
 
 std::optional<std::string> PhysicsWorld::findOverlap(const std::vector<std::string>& bodies) {

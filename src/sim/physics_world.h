@@ -26,9 +26,6 @@ class PhysicsWorld {
   const Robot& robot() const { return engine_->robot(); }
   const Furniture& furniture(int index) const { return engine_->furniture(index); }
 
-  /// True if nothing but floor and robot crosses the segment.
-  bool isClear(const Eigen::Vector3d& from_map, const Eigen::Vector3d& to_map) const;
-
   /// "chair_1 (seat) overlaps wall_3" if one of `bodies` overlaps anything; looks before any step.
   std::optional<std::string> findOverlap(const std::vector<std::string>& bodies);
 

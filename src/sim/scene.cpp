@@ -44,7 +44,7 @@ Scene::Scene(WorldModel world_model, RobotModel robot_model,
       robot(std::move(robot_model)),
       models(std::move(object_models)),
       robot_blueprint(makeBlueprint(robot)) {
-  CASEPUSH_CHECK(!world.static_map, "world " << world.name << " lacks its static map");
+  CASEPUSH_CHECK(!world.hasUnreadMap(), "world " << world.name << " lacks its static map");
   checkIds(world);
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const ObjectPlacement& placement = world.objects[i];

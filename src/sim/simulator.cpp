@@ -9,10 +9,9 @@
 #include "bullet_conversions.h"
 #include "casepush/common/input_error.h"
 #include "contact_log.h"
-#include "localisation.h"
 #include "physics_world.h"
 #include "scene.h"
-#include "tag_camera.h"
+#include "sensors.h"
 
 namespace casepush {
 namespace {
@@ -95,13 +94,11 @@ struct Simulator::Data {
         : swivels(Random::stream(options.seed, "swivels")),
           physics(std::make_unique<PhysicsWorld>(scene, startState(scene, swivels),
                                                  stepOptions(options))),
-          cameras(scene, options.sensor_noise, options.seed),
-          localisation(options, scene.world.map_T_robot) {}
+          sensors(scene, options.sensor_noise, options.seed) {}
 
     Random swivels;
     std::unique_ptr<PhysicsWorld> physics;
-    sim::TagCameras cameras;
-    sim::Localisation localisation;
+    sim::Sensors sensors;
     sim::ContactLog contacts;
     std::int64_t steps = 0;
     Twist2 command;
@@ -166,6 +163,7 @@ struct Simulator::Data {
   Scene scene;
   SimulatorOptions options;
   std::set<int> changed_loads;  // Objects whose load may not be the world's any more.
+  bool scanning = false;
   std::unique_ptr<Run> run;
 };
 
@@ -220,9 +218,7 @@ void Simulator::step(int count) {
     run.physics->setRobotTarget(expired ? Twist2{} : run.command);
     run.physics->step(run.contacts);
     ++run.steps;
-    const sim::Robot& robot = run.physics->robot();
-    run.localisation.update(data_->options.step_s, robot.pose(), robot.twist());
-    run.cameras.update(data_->time(), *run.physics);
+    run.sensors.update(data_->time(), data_->options.step_s, *run.physics, data_->scanning);
   }
 }
 
@@ -230,8 +226,20 @@ double Simulator::time() const { return data_->time(); }
 std::int64_t Simulator::stepCount() const { return data_->run->steps; }
 double Simulator::stepSeconds() const { return data_->options.step_s; }
 
-std::vector<TagFrame> Simulator::takeTagFrames() { return data_->run->cameras.take(time()); }
-OdometryReading Simulator::odometry() const { return data_->run->localisation.reading(time()); }
+std::vector<TagFrame> Simulator::takeTagFrames() {
+  return data_->run->sensors.cameras.take(time());
+}
+
+void Simulator::setScanning(bool wanted) { data_->scanning = wanted; }
+
+std::vector<RangeScan> Simulator::takeScans() {
+  return data_->run->sensors.range_sensors.take(time());
+}
+
+OdometryReading Simulator::odometry() const {
+  return data_->run->sensors.localisation.reading(time());
+}
+
 std::vector<ContactReport> Simulator::takeContacts() { return data_->run->contacts.take(); }
 
 Pose2 Simulator::trueRobotPose() const { return data_->run->physics->robot().pose(); }
@@ -276,7 +284,7 @@ void Simulator::setPoses(const std::map<std::string, Pose2>& map_T_bodies) {
   run.swivels = swivels;
   if (map_T_bodies.count(kRobotId) > 0) {
     run.command = {};
-    run.localisation.relocate(trueRobotPose());
+    run.sensors.localisation.relocate(trueRobotPose());
   }
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include "casepush/common/random.h"
 #include "casepush/model/tag_detection.h"
 #include "physics_world.h"
 #include "scene.h"
+#include "sensor_timing.h"
+#include "sight.h"
 
 namespace casepush::sim {
 
@@ -17,27 +18,28 @@ class TagCameras {
   /// @pre `scene` outlives this.
   TagCameras(const Scene& scene, bool noise, std::uint64_t seed);
 
+  bool isDue(double time_s) const;
+
   /// Takes the images that are due.
-  void update(double time_s, const PhysicsWorld& physics);
+  void update(double time_s, const PhysicsWorld& physics, const Sight& sight);
 
   /// Those whose latency has passed, oldest first.
-  std::vector<TagFrame> take(double time_s);
+  std::vector<TagFrame> take(double time_s) { return waiting_.take(time_s); }
 
  private:
-  struct Pending {
-    double due_s;
-    TagFrame frame;
+  struct Camera {
+    const CameraModel* model;
+    bool noise;
+    Random random;
+    SampleClock clock;
   };
 
-  TagFrame capture(const CameraModel& camera, double time_s, const PhysicsWorld& physics);
-  bool isVisible(const Eigen::Isometry3d& map_T_camera, const Eigen::Isometry3d& map_T_tag,
-                 double size_m, const PhysicsWorld& physics) const;
+  TagFrame capture(Camera& camera, double time_s, const PhysicsWorld& physics,
+                   const Sight& sight) const;
 
   const Scene& scene_;
-  bool noise_;
-  Random random_;
-  std::vector<std::int64_t> images_taken_;  // By camera.
-  std::deque<Pending> pending_;
+  std::vector<Camera> cameras_;
+  DelayLine<TagFrame> waiting_;
 };
 
 }  // namespace casepush::sim

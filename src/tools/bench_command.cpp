@@ -117,6 +117,10 @@ int benchSim(const BenchArguments& arguments) {
   if (arguments.laws) addLaws(line, result);
   line.show("measuring speed");
   nlohmann::ordered_json timing = speedJson(arguments);
+  const SensorCost sensors = measureSensorCost(Catalog::standard(), "office", arguments.speed_s);
+  timing["sensors_in_office"] = {{"us_per_ray", 1e6 * sensors.ray_s},
+                                 {"us_per_tag_image", 1e6 * sensors.image_s},
+                                 {"range_sensors_s_per_simulated_s", sensors.scanning_share}};
   timing["wall_s"] = watch.seconds();
   result["timing"] = timing;
   printResult(result, arguments.common.json);

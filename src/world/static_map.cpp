@@ -8,14 +8,13 @@
 #include <set>
 
 #include "casepush/common/input_error.h"
+#include "casepush/world/point_cloud.h"
 
 namespace casepush {
 namespace {
 
 constexpr std::int64_t kMostCells = std::int64_t{1} << 28;
 constexpr double kTolerance_m = 1e-4;
-constexpr char kName[] = "static_map";
-
 using Cell = Eigen::Vector3i;
 
 /// A block of cells: [low, high).
@@ -154,6 +153,26 @@ Block hull(const std::vector<Block>& blocks) {
   return bounds;
 }
 
+void addBoxes(WorldModel& world, const Map& map, double floor_m, const std::string& name,
+              const std::filesystem::path& file) {
+  const std::vector<StaticBox> boxes = boxesOf(map, world.min_m, world.max_m, name, floor_m);
+  if (boxes.empty()) {
+    throw InputError(file.string(), "holds nothing above the floor within the bounds of world " +
+                                        world.name + "; is it in the same frame?");
+  }
+  std::set<std::string> names;
+  for (const StaticBox& box : boxes) names.insert(box.name);
+  for (const StaticBox& box : world.boxes) names.insert(box.name);
+  for (const ObjectPlacement& object : world.objects) names.insert(object.id);
+  if (names.size() != boxes.size() + world.boxes.size() + world.objects.size()) {
+    throw InputError("world " + world.name,
+                     "names like '" + name + "_1' are taken by its " +
+                         (name == "static_map" ? "static map" : "point cloud") +
+                         "; rename the others");
+  }
+  world.boxes.insert(world.boxes.end(), boxes.begin(), boxes.end());
+}
+
 }  // namespace
 
 std::vector<StaticBox> boxesOf(const Map& map, const Eigen::Vector2d& min_m,
@@ -180,26 +199,31 @@ std::vector<StaticBox> boxesOf(const Map& map, const Eigen::Vector2d& min_m,
   return boxes;
 }
 
+Map mapOf(const PointCloudFile& cloud, const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m) {
+  std::vector<Eigen::Vector3f> points = loadPointCloud(cloud.file);
+  const Eigen::AlignedBox3d wanted(Eigen::Vector3d(min_m.x(), min_m.y(), cloud.low_m),
+                                   Eigen::Vector3d(max_m.x(), max_m.y(), cloud.high_m));
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](const Eigen::Vector3f& point) {
+                                return !wanted.contains(point.cast<double>());
+                              }),
+               points.end());
+  Map map(cloud.resolution_m);
+  map.addSurvey(points);
+  return map;
+}
+
 WorldModel withStaticMap(WorldModel world) {
-  if (!world.static_map) return world;
-  const std::string where = world.static_map->string();
-  std::vector<StaticBox> boxes =
-      boxesOf(Map::load(*world.static_map), world.min_m, world.max_m, kName);
-  if (boxes.empty()) {
-    throw InputError(where, "holds nothing above the floor within the bounds of world " +
-                                world.name + "; is it in the same frame?");
+  if (world.static_map) {
+    const std::filesystem::path file = *world.static_map;
+    world.static_map.reset();
+    addBoxes(world, Map::load(file), 0.05, "static_map", file);
   }
-  std::set<std::string> names;
-  for (const StaticBox& box : boxes) names.insert(box.name);
-  for (const StaticBox& box : world.boxes) names.insert(box.name);
-  for (const ObjectPlacement& object : world.objects) names.insert(object.id);
-  if (names.size() != boxes.size() + world.boxes.size() + world.objects.size()) {
-    throw InputError(
-        "world " + world.name,
-        std::string("names like '") + kName + "_1' are taken by its static map; rename the others");
+  if (world.point_cloud) {
+    const PointCloudFile cloud = *world.point_cloud;
+    world.point_cloud.reset();
+    addBoxes(world, mapOf(cloud, world.min_m, world.max_m), cloud.low_m, "point_cloud", cloud.file);
   }
-  world.boxes.insert(world.boxes.end(), boxes.begin(), boxes.end());
-  world.static_map.reset();
   return world;
 }
 

@@ -149,7 +149,7 @@ void addFloorRim(const WorldModel& world, double resolution_m,
 
 std::vector<Eigen::Vector3f> surveyPoints(const WorldModel& world, double resolution_m) {
   checkResolution(resolution_m, "map survey");
-  CASEPUSH_CHECK(!world.static_map, "world " << world.name << " lacks its static map");
+  CASEPUSH_CHECK(!world.hasUnreadMap(), "world " << world.name << " lacks its static map");
   checkCost(world, resolution_m);
   std::vector<Eigen::Vector3f> points;
   addFloorRim(world, resolution_m, &points);

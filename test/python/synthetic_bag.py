@@ -224,7 +224,7 @@ def write_demo(path, cases=6, practices=4, task=True, seed=1, goal=Pose2(9.0, 8.
     """A whole demo, or only its learning part. Returns the story for what tests want to know."""
     with rosbag.Bag(str(path), 'w') as bag:
         story = Story(bag, seed)
-        story.write('/points', room_points())
+        story.write('/survey', room_points())
         story.learn(cases, practices)
         if task:
             story.touch('robot', 'wall_north', 1.5)

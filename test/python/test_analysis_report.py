@@ -170,7 +170,7 @@ def test_an_unfinished_task_is_called_that(demo, tmp_path):
     ('/executor/state', 'executor/state: times for planning and approach are unknown'),
     ('/push_object', 'push_object/goal: goal and times'),
     ('/pl', 'plan: plans are not drawn'),
-    ('/points', 'points: the room is not drawn'),
+    ('/survey', 'survey: the room is not drawn'),
     ('/tf', "tf: the robot's path is not drawn"),
     ('/objects', 'objects: the tracked path is not drawn'),
     ('/push_reports', 'push_reports: no push is known'),

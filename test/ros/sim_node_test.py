@@ -74,8 +74,8 @@ class SimNodeTest(unittest.TestCase):
         self.assertLess(detection.pose.pose.pose.position.z, 2.5)
 
     def test_survey_is_latched(self):
-        points = harness.Recorder("points", PointCloud2)
-        message = points.wait()
+        survey = harness.Recorder("survey", PointCloud2)
+        message = survey.wait()
         self.assertEqual(message.header.frame_id, "map")
         self.assertGreater(message.width, 1000)
 

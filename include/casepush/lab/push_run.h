@@ -41,7 +41,8 @@ PushProblem problemFromWorld(const Catalog& catalog, const WorldModel& world,
                              const std::string& object, const Pose2& map_T_goal);
 
 /// A random problem: start and goal at least `min_distance_m` apart, both at least
-/// `clearance_m` clear of everything, and connected for a robot that drives.
+/// `clearance_m` clear of everything, connected for a robot that drives, and with room for the
+/// robot behind the object all along some way from start to goal.
 /// @throws InputError if the world has no room for one.
 PushProblem randomProblem(const Catalog& catalog, const WorldModel& world,
                           const std::string& object, std::uint64_t seed,

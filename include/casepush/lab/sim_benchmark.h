@@ -64,4 +64,14 @@ SimSpeed measureSimSpeed(const Catalog& catalog, const std::string& object,
                          const std::string& robot, const SimulatorOptions& options,
                          double simulated_s);
 
+/// What the sensors of a world's robot cost, by the thread's CPU time.
+struct SensorCost {
+  double ray_s = 0.0;           ///< One ray of a range sensor.
+  double image_s = 0.0;         ///< One image of a tag camera.
+  double scanning_share = 0.0;  ///< CPU time of all range sensors per simulated second.
+};
+
+SensorCost measureSensorCost(const Catalog& catalog, const std::string& world_name,
+                             double simulated_s);
+
 }  // namespace casepush

@@ -24,6 +24,14 @@ struct Floor {
   double rolling_lever_arm_m = 0.0024;  ///< f of F = f N / r (Al-Eisawi et al. 1999: tile).
 };
 
+/// A scan of a place: its points between two heights are static.
+struct PointCloudFile {
+  std::filesystem::path file;  ///< .pcd or .xyz, in the map frame [m].
+  double resolution_m = 0.05;  ///< Edge of the cells that points fill.
+  double low_m = 0.05;         ///< Points below are the floor,
+  double high_m = 2.0;         ///< and points above the ceiling.
+};
+
 /// One pushable object in a world.
 struct ObjectPlacement {
   std::string id;     ///< Unique in the world, e.g. "chair_1"; see checkObjectId().
@@ -47,6 +55,11 @@ struct WorldModel {
   std::vector<StaticBox> boxes;
   /// An OctoMap file whose occupied space is static, too; world/static_map.h makes boxes of it.
   std::optional<std::filesystem::path> static_map;
+  std::optional<PointCloudFile> point_cloud;  ///< The same for a point cloud.
+
+  /// True while static_map or point_cloud still wait to be made boxes of.
+  bool hasUnreadMap() const { return static_map || point_cloud; }
+
   std::vector<ObjectPlacement> objects;
   std::string robot = "cobot";  ///< Name or file of a RobotModel.
   Pose2 map_T_robot;

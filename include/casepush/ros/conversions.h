@@ -64,6 +64,9 @@ std::vector<ObjectState> fromMessage(const PushableObjectArray& message);
 std::string opticalFrame(const std::string& camera);
 std::string cameraOfFrame(const std::string& frame_id);
 
+/// Name of a range sensor's frame: x forward, z up.
+std::string rangeFrame(const std::string& range_sensor);
+
 AprilTagDetectionArray toMessage(const TagFrame& frame);
 /// Bundles of several tags are left out: their poses are not those of a tag.
 TagFrame fromMessage(const AprilTagDetectionArray& message);
@@ -75,6 +78,8 @@ Load fromMessage(const ObjectLoad& message);
 BodyContactArray toMessage(const std::vector<ContactReport>& contacts, double stamp_s);
 
 sensor_msgs::PointCloud2 toMessage(const std::vector<Eigen::Vector3f>& map_points, double stamp_s);
+/// Organised: a row for each layer; NaN where there was no return.
+sensor_msgs::PointCloud2 toMessage(const RangeScan& scan);
 /// Points that are not finite are left out.
 /// @throws InputError if there are no x, y, z fields of type float32, or the sizes disagree.
 std::vector<Eigen::Vector3f> fromMessage(const sensor_msgs::PointCloud2& message);

@@ -15,7 +15,8 @@ struct Topic {
 constexpr Topic kClock{"/clock", 10};
 constexpr Topic kOdometry{"odom", 10};
 constexpr Topic kTagDetections{"tag_detections", 100};
-constexpr Topic kPoints{"points", 1};  ///< Latched.
+constexpr Topic kPoints{"points", 10};
+constexpr Topic kSurvey{"survey", 1};  ///< Latched.
 constexpr Topic kCommandVelocity{"cmd_vel", 1};
 
 // Ground truth, for judging only.

@@ -36,7 +36,7 @@ struct SimNodeParameters {
   double real_time_factor = 1.0;      ///< 0: as fast as the nodes keep up.
   bool lock_step = false;             ///< Time stands still but for the service sim/step.
   double max_sim_time_s = 0.0;        ///< Ends the node; 0: never.
-  double survey_resolution_m = 0.05;  ///< Spacing of `points`.
+  double survey_resolution_m = 0.05;  ///< Spacing of `survey`.
 };
 
 struct PerceptionNodeParameters {
@@ -48,7 +48,7 @@ struct PerceptionNodeParameters {
 struct PlannerNodeParameters {
   Furnishing furnishing;
   PushPlannerOptions planner;
-  std::string map_file;  ///< .bt or .ot; empty: wait for the topic `points`.
+  std::string map_file;  ///< .bt or .ot; empty: wait for the topic `survey`.
   double map_resolution_m = 0.05;
 };
 

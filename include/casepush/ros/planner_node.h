@@ -30,7 +30,7 @@ class PlannerNode {
  private:
   using Server = actionlib::SimpleActionServer<PlanPushAction>;
 
-  void onPoints(const sensor_msgs::PointCloud2& message);
+  void onSurvey(const sensor_msgs::PointCloud2& message);
   void onCases(const PushCaseArray& message);
   void onObjects(const PushableObjectArray& message);
   void onGoal(const PlanPushGoalConstPtr& goal);
@@ -59,7 +59,7 @@ class PlannerNode {
   ros::Publisher plan_;
   ros::Publisher plan_markers_;
   ros::Publisher tree_markers_;
-  ros::Subscriber points_subscriber_;
+  ros::Subscriber survey_subscriber_;
   ros::Subscriber cases_subscriber_;
   ros::Subscriber objects_subscriber_;
   Server server_;

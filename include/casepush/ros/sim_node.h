@@ -19,10 +19,10 @@
 
 namespace casepush {
 
-/// Static transforms base_link -> optical frame of each camera.
-std::vector<geometry_msgs::TransformStamped> cameraTransforms(const RobotModel& robot);
+/// Static transforms base_link -> frame of each camera (optical) and range sensor.
+std::vector<geometry_msgs::TransformStamped> sensorTransforms(const RobotModel& robot);
 
-/// The bundled simulator behind the interface of a robot: /clock, odom, TF, tag detections.
+/// The bundled simulator behind the interface of a robot: /clock, odom, TF, tag detections, points.
 ///
 /// Everything happens in one thread: a control period of simulation, then callbacks. With
 /// real_time_factor 0 the next period begins as soon as a command has come, or when none came
@@ -74,6 +74,7 @@ class SimNode {
   ros::Publisher true_loads_;
   ros::Publisher contacts_;
   ros::Publisher points_;
+  ros::Publisher survey_;
   ros::Subscriber command_;
   ros::Subscriber objects_;
   ros::ServiceServer reset_;

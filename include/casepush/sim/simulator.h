@@ -10,6 +10,7 @@
 #include "casepush/common/pose2.h"
 #include "casepush/model/load.h"
 #include "casepush/model/object_model.h"
+#include "casepush/model/range_scan.h"
 #include "casepush/model/robot_model.h"
 #include "casepush/model/tag_detection.h"
 #include "casepush/model/world_model.h"
@@ -33,11 +34,8 @@ struct SimulatorOptions {
   double step_s = 1.0 / 240.0;
   int solver_iterations = 30;
   CasterModel caster_model = CasterModel::kFeatherstone;
-  bool sensor_noise = true;
-  double command_timeout_s = 0.25;      ///< The base stops when commands cease for this long.
-  double localisation_sigma_m = 0.004;  ///< Bounded, correlated error of map_T_odom.
-  double localisation_sigma_rad = 0.002;
-  double localisation_correlation_s = 10.0;
+  bool sensor_noise = true;         ///< False: every sensor of the robot is exact.
+  double command_timeout_s = 0.25;  ///< The base stops when commands cease for this long.
   /// By object id: on it at the start, in the place of what the world puts there.
   std::map<std::string, Load> loads;
   void validate() const;  ///< @throws InputError listing every violation.
@@ -88,6 +86,13 @@ class Simulator {
   /// Images taken since the last call whose latency has passed, oldest first. Without calls the
   /// last 1000 images wait.
   std::vector<TagFrame> takeTagFrames();
+
+  /// Range sensors work while scans are wanted, which they are not at first: rays cost time.
+  void setScanning(bool wanted);
+  /// Scans measured since the last call whose latency has passed, oldest first; without calls the
+  /// last 100 wait.
+  std::vector<RangeScan> takeScans();
+
   OdometryReading odometry() const;
 
   /// Contacts that bore force during the steps since the last call, by pair of parts and ordered by

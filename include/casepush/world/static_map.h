@@ -19,8 +19,13 @@ std::vector<StaticBox> boxesOf(const Map& map, const Eigen::Vector2d& min_m,
                                const Eigen::Vector2d& max_m, const std::string& name,
                                double floor_m = 0.05);
 
-/// The world with its static map, if it has one, turned into boxes.
-/// @throws InputError if the map cannot be read, holds nothing within the world's bounds, or a box
+/// The cells that a cloud's points within the bounds and its heights fill.
+/// @throws InputError from loadPointCloud().
+Map mapOf(const PointCloudFile& cloud, const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m);
+
+/// The world with its static map and its point cloud, if it has them, turned into boxes.
+/// @throws InputError if one of them cannot be read, holds nothing within the world's bounds, or a
+/// box
 ///   of the world has a name like those of the map.
 WorldModel withStaticMap(WorldModel world);
 

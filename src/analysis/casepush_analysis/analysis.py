@@ -129,6 +129,6 @@ def missing(recording):
             (any(t.status != 'unknown' for t in recording.tasks), 'push_object/goal',
              'goal and times of the task are taken from the plans, its tolerance is assumed'),
             (recording.plans, 'plan', 'plans are not drawn, re-plans are counted from pushes'),
-            (recording.room is not None, 'points', 'the room is not drawn'),
+            (recording.room is not None, 'survey', 'the room is not drawn'),
         ]
     return [f'{topic}: {consequence}' for present, topic, consequence in wanted if not present]

@@ -53,7 +53,7 @@ class Builder:
             ('PushableObjectArray', 'ground_truth/objects'): self._truth,
             ('PushableObjectArray', 'objects'): self._tracked,
             ('Octomap', ''): self._octomap,
-            ('PointCloud2', 'points'): self._points,
+            ('PointCloud2', 'survey'): self._survey,
             ('TFMessage', 'tf'): self._tf,
             ('TFMessage', 'tf_static'): self._tf,
         }
@@ -152,7 +152,7 @@ class Builder:
     def _octomap(self, message, _):
         self.recording.room = room.from_octomap(message) or self.recording.room
 
-    def _points(self, message, _):
+    def _survey(self, message, _):
         self.recording.room = self.recording.room or room.from_points(message)
 
     def _tf(self, message, stamp_s):

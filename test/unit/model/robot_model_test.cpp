@@ -107,8 +107,73 @@ TEST_F(LoadRobotModel, refusesBadYaml) {
             "cameras[0].horizontal_fov_deg: is 180; must be a number in [1, 170]");
   const std::string yaml = smallRobotYaml();
   const std::string camera = yaml.substr(yaml.find("  - name"));
-  EXPECT_EQ(yamlError(camera, camera + camera), "cameras[1].name: left is taken by another camera");
+  EXPECT_EQ(yamlError(camera, camera + camera), "cameras[1].name: left is taken by another sensor");
   EXPECT_EQ(yamlError("cameras:\n" + camera, ""), "cameras: must list at least one camera");
+}
+
+constexpr char kScanner[] = R"(range_sensors:
+  - name: scanner
+    xyz: [0.4, 0, 0.3]
+    rpy_deg: [0, 0, 0]
+    beams: 181
+    horizontal_fov_deg: 180
+    max_range_m: 8
+    rate_hz: 10
+    noise_m: 0.02
+)";
+
+TEST_F(LoadRobotModel, readsRangeSensorsOdometryAndLocalisation) {
+  const RobotModel bot =
+      load(smallRobotUrdf(), smallRobotYaml() + kScanner +
+                                 "odometry: {noise: false, yaw_per_turn_deg: 3}\n"
+                                 "localisation: {position_sigma_m: 0.01, seed: 4}\n");
+  ASSERT_EQ(bot.range_sensors.size(), 1U);
+  const RangeSensorModel& scanner = bot.range_sensors[0];
+  EXPECT_TRUE(scanner.switches.enabled && scanner.switches.noise);
+  EXPECT_EQ(scanner.layers, 1);
+  EXPECT_EQ(scanner.dropout, 0.0);
+  EXPECT_LT((scanner.direction(0, 0) - Eigen::Vector3d(0, -1, 0)).norm(), 1e-12);
+  EXPECT_LT((scanner.direction(0, 90) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((scanner.direction(0, 180) - Eigen::Vector3d(0, 1, 0)).norm(), 1e-12);
+  EXPECT_FALSE(bot.odometry.switches.noise);
+  EXPECT_NEAR(bot.odometry.yaw_per_turn_rad, 3.0 * M_PI / 180.0, 1e-12);
+  EXPECT_EQ(bot.localisation.switches.seed, 4U);
+  EXPECT_DOUBLE_EQ(bot.localisation.position_bound_m, 0.03);  // Three standard deviations.
+}
+
+TEST_F(LoadRobotModel, refusesBadSensors) {
+  const auto error = [&](const std::string& from, const std::string& to) {
+    const std::string text = inputErrorText(
+        [&] { load(smallRobotUrdf(), smallRobotYaml() + replaced(kScanner, from, to)); });
+    return text.substr(text.find("range_sensors"));
+  };
+  EXPECT_EQ(error("noise_m: 0.02", "noise_m: -1"),
+            "range_sensors[0].noise_m: is -1; must be a number in [0, 1]");
+  EXPECT_EQ(error("beams: 181", "beams: 181\n    beans: 3"),
+            "range_sensors[0]: unknown key(s): beans");
+  EXPECT_EQ(error("name: scanner", "name: left"),
+            "range_sensors[0].name: left is taken by another sensor");
+  EXPECT_EQ(error("name: scanner", "name: odometry"),
+            "range_sensors[0].name: odometry is taken by another sensor");
+  EXPECT_EQ(error("xyz: [0.4", "xyz: [0.1"),
+            "range_sensors[0].xyz: (0.1, 0, 0.3) is inside the robot's base_link, where it sees "
+            "nothing; must be outside");
+  EXPECT_EQ(
+      error("beams: 181", "beams: 10000\n    layers: 100"),
+      "range_sensors[0]: casts 1000000 rays a scan and 1e+07 a second; must be at most 200000 "
+      "and 2e+06: use fewer beams or layers, or a lower rate");
+  EXPECT_EQ(error("max_range_m: 8", "max_range_m: 8\n    min_range_m: 9"),
+            "range_sensors[0].min_range_m: is 9; must be a number in [0, 8]");
+  const auto section = [&](const std::string& text) {
+    const std::string message =
+        inputErrorText([&] { load(smallRobotUrdf(), smallRobotYaml() + text); });
+    return message.substr(message.find("yaml: ") + 6);
+  };
+  EXPECT_EQ(section("odometry: {scale: 2}\n"),
+            "odometry.scale: is 2; must be a number in [0, 0.1]");
+  EXPECT_EQ(section("odometry: {enabled: false}\n"), "odometry: unknown key(s): enabled");
+  EXPECT_EQ(section("localisation: {correlation_s: 0}\n"),
+            "localisation.correlation_s: is 0; must be a number in [0.001, 1e+06]");
 }
 
 }  // namespace

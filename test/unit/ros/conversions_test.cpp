@@ -192,5 +192,23 @@ TEST(Conversions, refusesOctomapOfAnotherKind) {
   EXPECT_THROW(fromMessage(message), InputError);
 }
 
+TEST(Conversions, scansBecomeOrganisedClouds) {
+  const auto nan = static_cast<float>(kNan);
+  const RangeScan scan{"scanner",
+                       2.5,
+                       2,
+                       3,
+                       {{1, 2, 3}, {nan, nan, nan}, {4, 5, 6}, {7, 8, 9}, {1, 1, 1}, {2, 2, 2}}};
+  const sensor_msgs::PointCloud2 message = toMessage(scan);
+  EXPECT_EQ(message.header.frame_id, "scanner_frame");
+  EXPECT_DOUBLE_EQ(message.header.stamp.toSec(), 2.5);
+  EXPECT_EQ(message.height, 2U);
+  EXPECT_EQ(message.width, 3U);
+  EXPECT_FALSE(message.is_dense);
+  const std::vector<Eigen::Vector3f> points = fromMessage(message);
+  ASSERT_EQ(points.size(), 5U);
+  EXPECT_EQ(points[2], Eigen::Vector3f(7, 8, 9));
+}
+
 }  // namespace
 }  // namespace casepush

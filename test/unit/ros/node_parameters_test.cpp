@@ -103,6 +103,23 @@ TEST(NodeParameters, simulatorTakesACasterModel) {
   EXPECT_TRUE(contains(problems(loadSimNodeParameters, values), "there is no \"flat\""));
 }
 
+TEST(NodeParameters, sensorsAreSwitchedByName) {
+  XmlRpcValue values = office();
+  values["disabled_sensors"] = std::string("left scanner");
+  values["exact_sensors"] = std::string(" odometry ");
+  const RobotModel robot =
+      loadSimNodeParameters(ParameterReader(values, "node"), Catalog::standard()).robot;
+  EXPECT_TRUE(robot.cameras[0].switches.enabled);
+  EXPECT_FALSE(robot.cameras[1].switches.enabled);
+  EXPECT_FALSE(robot.range_sensors[0].switches.enabled);
+  EXPECT_FALSE(robot.odometry.switches.noise);
+  EXPECT_TRUE(robot.localisation.switches.noise);
+  values["disabled_sensors"] = std::string("left sonar localisation");
+  const std::string text = problems(loadSimNodeParameters, values);
+  EXPECT_TRUE(contains(text, "disabled_sensors: robot cobot: has no sensor 'sonar'")) << text;
+  EXPECT_TRUE(contains(text, "localisation cannot be disabled")) << text;
+}
+
 TEST(NodeParameters, boundsOfTheCoreApply) {
   XmlRpcValue values = office();
   values["push"]["alpha"] = 2.0;

@@ -174,6 +174,61 @@ TEST(EstimateTagPose, noiseGrowsWithRange) {
   }
 }
 
+/// Standard deviations of depth and of the turn about the image's y axis.
+Eigen::Vector2d tagNoise(const CameraModel& camera, double range_m, double angle_rad) {
+  Eigen::Isometry3d camera_T_tag = test::at(0.0, 0.0, range_m);
+  camera_T_tag.rotate(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitY()));
+  Corners corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    corners[i] = project(camera, camera_T_tag * tagCorners(0.16)[i]);
+  }
+  const auto covariance =
+      estimateTagPose(camera, 0.16, corners, camera_T_tag, camera.corner_noise_px).covariance;
+  return {std::sqrt(covariance(2, 2)), std::sqrt(covariance(4, 4))};
+}
+
+// Seen from the front, depth comes from the size of the tag: sigma z^2 / (sqrt(2) f s); its turn
+// from perspective only: 2 sigma z^2 / (f s^2). Seen at an angle, the width tells the turn, and
+// depth is left with the height: sigma z^2 / (f s).
+TEST(EstimateTagPose, noiseFollowsFromRangeAndViewingAngle) {
+  CameraModel camera = makeCamera();
+  camera.corner_noise_px = 0.3;
+  const double f_s = camera.focalPx() * 0.16;
+  for (const double z : {1.0, 3.0}) {
+    const Eigen::Vector2d front = tagNoise(camera, z, 0.0);
+    EXPECT_NEAR(front[0], 0.3 * z * z / (std::sqrt(2.0) * f_s), 0.02 * front[0]);
+    EXPECT_NEAR(front[1], 2.0 * 0.3 * z * z / (f_s * 0.16), 0.02 * front[1]);
+    const Eigen::Vector2d oblique = tagNoise(camera, z, 0.8);
+    EXPECT_NEAR(oblique[0], 0.3 * z * z / f_s, 0.05 * oblique[0]);
+    EXPECT_LT(oblique[1], 0.2 * front[1]);
+    EXPECT_GT(tagNoise(camera, z, 0.2)[1], tagNoise(camera, z, 0.6)[1]);
+  }
+}
+
+TEST(TagCameras, areExactOrAbsentBySwitch) {
+  CameraModel camera = makeCamera();
+  camera.dropout = 0.9;
+  camera.rate_hz = 240.0;
+  const auto detections = [&](bool noise) {
+    Simulator simulator = makeSimulator(facingWorld(), camera, noise);
+    simulator.step(100);
+    std::vector<TagDetection> all;
+    for (const TagFrame& frame : simulator.takeTagFrames()) {
+      all.insert(all.end(), frame.detections.begin(), frame.detections.end());
+    }
+    return all;
+  };
+  EXPECT_LT(detections(true).size(), 40U);
+  camera.switches.noise = false;
+  const auto exact = detections(true);
+  ASSERT_EQ(exact.size(), 100U);
+  EXPECT_EQ(exact.back().camera_T_tag.matrix(), detections(false).back().camera_T_tag.matrix());
+  camera.switches.enabled = false;
+  Simulator blind = makeSimulator(facingWorld(), camera, true);
+  blind.step(100);
+  EXPECT_TRUE(blind.takeTagFrames().empty());
+}
+
 TEST(EstimateTagPose, convergesFromAnOffset) {
   const CameraModel camera = makeCamera();
   Eigen::Isometry3d camera_T_tag = test::at(0.2, -0.1, 1.5);
