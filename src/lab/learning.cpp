@@ -74,12 +74,11 @@ LearningResult learnInLab(const Catalog& catalog, const std::string& object,
     const PushReport& report = *push.report();
     std::optional<Case> updated;
     if (trial->case_id && isObservation(report)) {
-      updated =
-          case_base.observe(*trial->case_id, report.recorded.start_outcome.mean, options.floor);
+      updated = case_base.observe(*trial->case_id, observedPush(report), options.floor);
     }
     switch (exploration.judge(report, updated)) {
       case Exploration::Verdict::kStoreCase:
-        exploration.stored(case_base.add(report.recorded));
+        exploration.stored(case_base.add(report.recorded, report.end_stamp_s));
         break;
       case Exploration::Verdict::kDropCase:
         case_base.remove(*trial->case_id);
