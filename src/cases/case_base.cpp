@@ -85,7 +85,10 @@ Case addPush(SqliteDatabase& database, std::int64_t id, const ObservedPush& push
                  takes_over ? std::vector<Pose2>() : objectPath(push.steps)});
   if (takes_over) {
     updateSteps(database, updated);
-    replacePrior(database, id, priorOf(updated, 1, floor));
+    // The tube follows from the new steps and the outcome.
+    replacePrior(
+        database, id,
+        {1, updated.start_outcome, updated.effective_count, updated.observation_count, floor, {}});
   }
   transaction.commit();
   return updated;
@@ -99,20 +102,6 @@ Case existingCase(SqliteDatabase& database, std::int64_t id) {
     throw InputError(whereIs(database, id), "does not exist");
   }
   return std::move(*push_case);
-}
-
-CasePrior priorOf(const Case& push_case, int after_number, const CovarianceFloor& floor) {
-  CasePrior prior{after_number,
-                  push_case.start_outcome,
-                  push_case.effective_count,
-                  push_case.observation_count,
-                  floor,
-                  {}};
-  // Before the first practice the tube is known from steps and outcome.
-  if (push_case.observation_count > 1 || push_case.origin == CaseOrigin::kTransferred) {
-    prior.tube = push_case.tube;
-  }
-  return prior;
 }
 
 CaseBase::CaseBase(const fs::path& file, Access access)
@@ -140,10 +129,15 @@ std::int64_t CaseBase::add(const Case& push_case, const std::optional<double>& s
   requirePrintable(push_case.object, where + ": object");
   requirePrintable(push_case.robot, where + ": robot");
   CaseRecord record{push_case, {}, firstHistory(push_case, stamp_s, floor)};
-  if (record.push_case.tube.empty()) {
+  record.prior = {static_cast<int>(record.history.size()),
+                  push_case.start_outcome,
+                  push_case.effective_count,
+                  push_case.observation_count,
+                  floor,
+                  push_case.tube};
+  if (push_case.tube.empty()) {
     record.push_case.tube = tubeFromOutcome(push_case.steps, push_case.start_outcome, floor);
   }
-  record.prior = priorOf(record.push_case, static_cast<int>(record.history.size()), floor);
   SqliteTransaction transaction(sqlite, Kind::kWrite);
   const std::int64_t id = insertCase(sqlite, record);
   transaction.commit();

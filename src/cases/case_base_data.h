@@ -12,9 +12,6 @@ struct CaseBase::Database {
 /// @throws InputError if there is no such case.
 Case existingCase(SqliteDatabase& database, std::int64_t id);
 
-/// The state that a case is in when it comes from elsewhere: nothing before can be taken back.
-CasePrior priorOf(const Case& push_case, int after_number, const CovarianceFloor& floor);
-
 /// Inserts cases of one file, whose copies name their sources by the ids there.
 void insertWithSources(SqliteDatabase& database, const std::vector<CaseRecord>& records);
 

@@ -120,7 +120,8 @@ std::int64_t CaseBase::copy(std::int64_t id, const PushContext& context) {
 
 std::int64_t CaseBase::forContext(std::int64_t id, const PushContext& context) {
   const Case original = get(id);
-  if (contextDistance(original.context, context) == 0.0) {
+  const bool is_unknown = !context.load_kg && context.floor.empty();
+  if (is_unknown || contextDistance(original.context, context) == 0.0) {
     return id;
   }
   for (const Case& push_case : cases(original.object)) {

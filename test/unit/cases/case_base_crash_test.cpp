@@ -150,11 +150,11 @@ TEST(CaseBaseCrash, losesNothingThatWasAcknowledged) {
 }
 
 TEST(CaseBaseCrash, beingKilledWhileCreatingLeavesSomethingThatOpens) {
-  constexpr int kKills = 20;
+  constexpr int kKills = 8;
   TemporaryFolder folder;
   for (int kill = 0; kill < kKills; ++kill) {
     const fs::path file = folder / ("cases" + std::to_string(kill) + ".db");
-    const std::vector<Acknowledgement> stored = learnAndKill(file, 0, 500 * kill);
+    const std::vector<Acknowledgement> stored = learnAndKill(file, 0, 1000 * kill);
     ASSERT_NO_THROW(CaseBase(file, Access::kCreate));
     expectStored(file, stored);
   }

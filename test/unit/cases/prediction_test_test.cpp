@@ -67,6 +67,37 @@ TEST(TestPrediction, theFloorOnlyMakesItMoreCautious) {
   EXPECT_NEAR(realistic.hotelling, kAlpha, 0.008);
 }
 
+// Dynamics that do not change: adapting after each push, with counts between 1 and 20, is cautious.
+// With the paper's literal weight the count runs away, and what is tested is the plug-in.
+TEST(TestPrediction, keepsAlphaWhileCasesAreAdapted) {
+  double rates[2] = {};
+  constexpr int kCases = 100;
+  constexpr int kPushes = 100;
+  for (const PastWeight weight : {PastWeight::kBounded, PastWeight::kPaper}) {
+    Random random(11);
+    AdaptationOptions options;
+    options.weight = weight;
+    int rejected = 0;
+    for (int i = 0; i < kCases; ++i) {
+      const auto outcome = [&] { return Pose2(0.6, 0.1, 0.3) * randomPose(random, 0.05, 0.1); };
+      OutcomeStatistics statistics;
+      for (int k = 0; k < 20; ++k) {
+        statistics = addObservation(statistics, outcome(), {});
+      }
+      for (int k = 0; k < kPushes; ++k) {
+        const Pose2 next = outcome();
+        const PredictionTest test = testPrediction(statistics, next, kAlpha);
+        rejected += test.rejected ? 1 : 0;
+        statistics =
+            adapt(statistics, next, adaptationWeight(statistics, next, test.p_value, options), {});
+      }
+    }
+    rates[weight == PastWeight::kPaper ? 1 : 0] = static_cast<double>(rejected) / kCases / kPushes;
+  }
+  EXPECT_LT(rates[0], kAlpha);
+  EXPECT_GT(rates[1], 2.0 * kAlpha);
+}
+
 TEST(TestPrediction, fallbackRaisesAtMostAlphaFalseAlarms) {
   for (const int n : {1, 2, 3, 4}) {
     EXPECT_LT(falseAlarmRates(n, 4000, 0.05, 0.1, {}, 9).hotelling, kAlpha) << n;

@@ -45,6 +45,7 @@ def _panels(stored):
     columns = min(5, max(1, math.ceil(math.sqrt(len(stored)))))
     rows = math.ceil(len(stored) / columns)
     figure = style.new_figure(max(6.5, 2.5 * columns), 2.6 * rows + 0.9)
+    figure.set_constrained_layout_pads(w_pad=0.06, h_pad=0.08)
     panels = list(figure.subplots(rows, columns, squeeze=False).flat)
     for axes in panels[len(stored):]:
         axes.set_visible(False)
