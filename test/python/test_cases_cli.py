@@ -14,7 +14,7 @@ CHAIR_CASES = os.path.join(DATA, "office_chair_cases.yaml")
 
 def run(*arguments):
     return subprocess.run(["rosrun", "casepush", *map(str, arguments)], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True, timeout=100, check=False)
+                          stderr=subprocess.PIPE, text=True, timeout=150, check=False)
 
 
 def cases(command, file, *arguments):

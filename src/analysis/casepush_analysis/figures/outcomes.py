@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -93,12 +95,16 @@ def _draw_outcomes(axes, case, span):
 
 
 def _draw_tube(axes, case):
-    for step in case.tube:
-        geometry.ellipse(axes, step, style.SIGMAS_95, facecolor=style.EXPECTED,
-                         edgecolor='#b8860b', alpha=0.12, linewidth=0.4, zorder=2)
-    for observation in case.observations:
-        geometry.path(axes, observation.path, color='#8fb3d9', linewidth=0.7, alpha=0.8, zorder=3)
-    geometry.path(axes, case.record.object_path, color='#8fb3d9', linewidth=0.7, zorder=3)
+    # As collections: hundreds of separate artists would take a minute.
+    sizes = np.array([step.ellipse(style.SIGMAS_95) for step in case.tube])
+    axes.add_collection(EllipseCollection(
+        sizes[:, 0], sizes[:, 1], np.degrees(sizes[:, 2]), units='xy',
+        offsets=[(step.mean.x_m, step.mean.y_m) for step in case.tube],
+        transOffset=axes.transData, facecolor=style.EXPECTED, edgecolor='#b8860b', alpha=0.12,
+        linewidth=0.4, zorder=2))
+    paths = [case.record.object_path] + [o.path for o in case.observations]
+    axes.add_collection(LineCollection([[(p.x_m, p.y_m) for p in path] for path in paths if path],
+                                       color='#8fb3d9', linewidth=0.7, alpha=0.8, zorder=3))
     geometry.path(axes, [s.mean for s in case.tube], color=style.OBSERVED, linewidth=1.6, zorder=5)
     axes.plot(0.0, 0.0, 's', markersize=4, color=style.TRUTH, zorder=6)
     geometry.heading(axes, case.record.outcome.mean, 0.06, style.OBSERVED, zorder=6, width=1.4)
