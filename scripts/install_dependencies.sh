@@ -7,7 +7,7 @@ packages="
   catkin ros-desktop-full-dev rosbash librviz-dev librostest-dev libactionlib-dev
   libdiagnostic-updater-dev libmessage-filters-dev libtf2-ros-dev
   libboost-dev libbullet-dev libcli11-dev libeigen3-dev libfcl-dev libgtest-dev liboctomap-dev
-  libompl-dev libsqlite3-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
+  libompl-dev librapidcheck-dev libsqlite3-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
   python3 python3-jinja2 python3-matplotlib python3-numpy python3-pil python3-pytest
   python3-nav-msgs python3-rosbag python3-rostest python3-std-srvs python3-visualization-msgs
   python3-yaml

@@ -5,9 +5,10 @@
 #include <utility>
 
 #include "atomic_file.h"
+#include "case_base_data.h"
 #include "case_file.h"
-#include "case_rows.h"
 #include "case_yaml.h"
+#include "casepush/cases/case_tube.h"
 #include "casepush/common/input_error.h"
 
 namespace casepush {
@@ -15,18 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Kind = SqliteTransaction::Kind;
-
-std::string whereIs(const SqliteDatabase& database, std::int64_t id) {
-  return database.file() + ": case " + std::to_string(id);
-}
-
-Case existingCase(SqliteDatabase& database, std::int64_t id) {
-  std::optional<Case> push_case = selectCase(database, id);
-  if (!push_case) {
-    throw InputError(whereIs(database, id), "does not exist");
-  }
-  return std::move(*push_case);
-}
 
 OutcomeSource firstSource(CaseOrigin origin) {
   switch (origin) {
@@ -50,44 +39,70 @@ void requirePrintable(const std::string& name, const std::string& where) {
 
 // What is known of the observations behind a case that comes without its history: the only one, or
 // the one that its steps recorded.
-std::vector<ObservedOutcome> firstHistory(const Case& push_case) {
+std::vector<ObservedOutcome> firstHistory(const Case& push_case,
+                                          const std::optional<double>& stamp_s,
+                                          const CovarianceFloor& floor) {
   if (push_case.observation_count == 0) {
     return {};
   }
   const Pose2& outcome = push_case.observation_count == 1 ? push_case.start_outcome.mean
                                                           : push_case.steps.back().start_T_object;
-  return {{outcome, firstSource(push_case.origin), 0.0}};
+  return {{outcome, firstSource(push_case.origin), 0.0, floor, stamp_s, push_case.context, {}}};
 }
 
-// Updates the statistics of a case by `blend(statistics)` and keeps the observation.
-template <typename Blend>
-Case addOutcome(SqliteDatabase& database, std::int64_t id, const Pose2& start_T_object,
-                OutcomeSource source, const Blend& blend) {
+void validatePush(const ObservedPush& push, const std::string& where) {
+  if (!push.start_T_object.isFinite()) {
+    throw InputError(where, "observed outcome is not finite");
+  }
+  if (push.start_T_object.position().cwiseAbs().maxCoeff() > kLargestCaseCoordinate_m) {
+    throw InputError(where, "observed outcome is too far away; x and y must be within 100 m of 0");
+  }
+  for (std::size_t i = 0; i < push.steps.size(); ++i) {
+    validateCasePose(push.steps[i].start_T_object,
+                     where + ": observed steps[" + std::to_string(i) + "].start_T_object");
+  }
+  if (push.stamp_s && !std::isfinite(*push.stamp_s)) {
+    throw InputError(where, "observed stamp is not finite");
+  }
+  validateContext(push.context, where + ": observed");
+}
+
+// Adds a push with the past counting `weigh(statistics)`, and keeps it.
+template <typename Weigh>
+Case addPush(SqliteDatabase& database, std::int64_t id, const ObservedPush& push,
+             OutcomeSource source, const CovarianceFloor& floor, const Weigh& weigh) {
   SqliteTransaction transaction(database, Kind::kWrite);
-  Case push_case = existingCase(database, id);
-  if (!start_T_object.isFinite()) {
-    throw InputError(whereIs(database, id), "observed outcome is not finite");
+  const Case known = existingCase(database, id);
+  const std::string where = whereIs(database, id);
+  validatePush(push, where);
+  const double weight = weigh(OutcomeStatistics{known.start_outcome, known.effective_count});
+  const Case updated = withPush(known, push, weight, floor);
+  validateCase(updated, where);  // Else it could not be read again.
+  updateStatistics(database, updated);
+  const bool takes_over = takesOverTrajectories(known, push);
+  insertOutcome(database, id,
+                {push.start_T_object, source, weight, floor, push.stamp_s, push.context,
+                 takes_over ? std::vector<Pose2>() : objectPath(push.steps)});
+  if (takes_over) {
+    updateSteps(database, updated);
+    // The tube follows from the new steps and the outcome.
+    replacePrior(
+        database, id,
+        {1, updated.start_outcome, updated.effective_count, updated.observation_count, floor, {}});
   }
-  if (start_T_object.position().cwiseAbs().maxCoeff() > kLargestCaseCoordinate_m) {
-    throw InputError(whereIs(database, id),
-                     "observed outcome is too far away; x and y must be within 100 m of 0");
-  }
-  const OutcomeStatistics updated = blend({push_case.start_outcome, push_case.effective_count});
-  push_case.start_outcome = updated.start_outcome;
-  push_case.effective_count = updated.effective_count;
-  ++push_case.observation_count;
-  validateCase(push_case, whereIs(database, id));  // Else it could not be read again.
-  updateStatistics(database, push_case);
-  insertOutcome(database, id, {start_T_object, source, updated.effective_count - 1.0});
   transaction.commit();
-  return push_case;
+  return updated;
 }
 
 }  // namespace
 
-struct CaseBase::Database {
-  SqliteDatabase sqlite;
-};
+Case existingCase(SqliteDatabase& database, std::int64_t id) {
+  std::optional<Case> push_case = selectCase(database, id);
+  if (!push_case) {
+    throw InputError(whereIs(database, id), "does not exist");
+  }
+  return std::move(*push_case);
+}
 
 CaseBase::CaseBase(const fs::path& file, Access access)
     : database_(new Database{openCaseFile(file, access)}) {}
@@ -101,36 +116,50 @@ std::vector<Case> CaseBase::cases(const std::string& object) const {
 
 Case CaseBase::get(std::int64_t id) const { return existingCase(database_->sqlite, id); }
 
-std::int64_t CaseBase::add(const Case& push_case) {
+int CaseBase::count() const {
+  return static_cast<int>(database_->sqlite.integer("SELECT count(*) FROM cases"));
+}
+
+std::int64_t CaseBase::add(const Case& push_case, const std::optional<double>& stamp_s,
+                           const CovarianceFloor& floor) {
   SqliteDatabase& sqlite = database_->sqlite;
   const std::string where = sqlite.file() + ": new case";
   validateCase(push_case, where);
+  floor.validate();
   requirePrintable(push_case.object, where + ": object");
   requirePrintable(push_case.robot, where + ": robot");
+  CaseRecord record{push_case, {}, firstHistory(push_case, stamp_s, floor)};
+  record.prior = {static_cast<int>(record.history.size()),
+                  push_case.start_outcome,
+                  push_case.effective_count,
+                  push_case.observation_count,
+                  floor,
+                  push_case.tube};
+  if (push_case.tube.empty()) {
+    record.push_case.tube = tubeFromOutcome(push_case.steps, push_case.start_outcome, floor);
+  }
   SqliteTransaction transaction(sqlite, Kind::kWrite);
-  const std::int64_t id = insertCase(sqlite, {push_case, firstHistory(push_case)});
+  const std::int64_t id = insertCase(sqlite, record);
   transaction.commit();
   return id;
 }
 
-Case CaseBase::observe(std::int64_t id, const Pose2& start_T_object, const CovarianceFloor& floor) {
-  return addOutcome(
-      database_->sqlite, id, start_T_object, OutcomeSource::kPractised,
-      [&](const OutcomeStatistics& past) { return addObservation(past, start_T_object, floor); });
+Case CaseBase::observe(std::int64_t id, const ObservedPush& push, const CovarianceFloor& floor) {
+  return addPush(database_->sqlite, id, push, OutcomeSource::kPractised, floor,
+                 [](const OutcomeStatistics& past) { return past.effective_count; });
 }
 
-Case CaseBase::adapt(std::int64_t id, const Pose2& start_T_object, double weight,
-                     const CovarianceFloor& floor) {
-  if (!std::isfinite(weight) || weight < 1.0) {
+Case CaseBase::adapt(std::int64_t id, const ObservedPush& push, double p_value,
+                     const AdaptationOptions& options, const CovarianceFloor& floor) {
+  if (!(p_value >= 0.0 && p_value <= 1.0)) {
     throw InputError(whereIs(database_->sqlite, id),
-                     "weight of the past is " + std::to_string(weight) + "; must be >= 1");
+                     "p-value is " + std::to_string(p_value) + "; must be in [0, 1]");
   }
-  return addOutcome(database_->sqlite, id, start_T_object, OutcomeSource::kAdapted,
-                    [&](const OutcomeStatistics& past) {
-                      return weight < past.effective_count
-                                 ? casepush::adapt(past, start_T_object, weight, floor)
-                                 : addObservation(past, start_T_object, floor);
-                    });
+  options.validate();
+  return addPush(database_->sqlite, id, push, OutcomeSource::kAdapted, floor,
+                 [&](const OutcomeStatistics& past) {
+                   return adaptationWeight(past, push.start_T_object, p_value, options);
+                 });
 }
 
 void CaseBase::remove(std::int64_t id) {
@@ -163,20 +192,17 @@ void CaseBase::exportYaml(const fs::path& file) const {
   std::vector<CaseRecord> records;
   {
     SqliteTransaction transaction(sqlite, Kind::kRead);
-    for (Case& push_case : selectCases(sqlite, "")) {
-      const std::int64_t id = push_case.id;
-      records.push_back({std::move(push_case), selectHistory(sqlite, id)});
+    for (const Case& push_case : selectCases(sqlite, "")) {
+      records.push_back(selectRecord(sqlite, push_case));
     }
   }
   writeFileAtomically(file, formatCases(records));
 }
 
 int CaseBase::importYaml(const fs::path& file) {
-  const std::vector<CaseRecord> records = readCases(file);
+  std::vector<CaseRecord> records = readCases(file);
   SqliteTransaction transaction(database_->sqlite, Kind::kWrite);
-  for (const CaseRecord& record : records) {
-    insertCase(database_->sqlite, record);
-  }
+  insertWithSources(database_->sqlite, records);
   transaction.commit();
   return static_cast<int>(records.size());
 }

@@ -2,51 +2,16 @@
 
 #include <sqlite3.h>
 
+#include <string>
+#include <vector>
+
+#include "case_schema.h"
 #include "casepush/common/input_error.h"
 
 namespace casepush {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::int64_t kApplicationId = 0x43507368;  // "CPsh"
-constexpr std::int64_t kSchemaVersion = 1;
-
-// Ids are never reused (AUTOINCREMENT): a late report about a removed case must not hit another.
-// outcome.past_weight: how many observations the past counted when this one was added.
-constexpr char kSchema[] = R"sql(
-CREATE TABLE cases (
-  id INTEGER PRIMARY KEY AUTOINCREMENT,
-  object TEXT NOT NULL,
-  robot TEXT NOT NULL,
-  origin TEXT NOT NULL,
-  period_s REAL NOT NULL,
-  push_steps INTEGER NOT NULL,
-  mean_x_m REAL NOT NULL,
-  mean_y_m REAL NOT NULL,
-  mean_yaw_rad REAL NOT NULL,
-  cov_x_x REAL NOT NULL,
-  cov_x_y REAL NOT NULL,
-  cov_x_yaw REAL NOT NULL,
-  cov_y_y REAL NOT NULL,
-  cov_y_yaw REAL NOT NULL,
-  cov_yaw_yaw REAL NOT NULL,
-  effective_count REAL NOT NULL,
-  observation_count INTEGER NOT NULL,
-  steps BLOB NOT NULL
-);
-CREATE INDEX cases_by_object ON cases(object);
-CREATE TABLE outcomes (
-  case_id INTEGER NOT NULL REFERENCES cases(id) ON DELETE CASCADE,
-  number INTEGER NOT NULL,
-  source TEXT NOT NULL,
-  x_m REAL NOT NULL,
-  y_m REAL NOT NULL,
-  yaw_rad REAL NOT NULL,
-  past_weight REAL NOT NULL,
-  PRIMARY KEY (case_id, number)
-) WITHOUT ROWID;
-)sql";
 
 enum class Content { kEmpty, kCaseBase };
 
@@ -60,11 +25,11 @@ Content identify(SqliteDatabase& database) {
   if (isEmpty(database)) {
     return Content::kEmpty;
   }
-  if (database.integer("PRAGMA application_id") != kApplicationId) {
+  if (database.integer("PRAGMA application_id") != kCaseFileId) {
     throw InputError(database.file(),
                      "belongs to another program; give the path of a file made by casepush");
   }
-  const std::int64_t version = database.integer("PRAGMA user_version");
+  const std::int64_t version = schemaVersion(database);
   if (version > kSchemaVersion) {
     throw InputError(database.file(), "has schema version " + std::to_string(version) +
                                           ", this program knows up to " +
@@ -73,16 +38,33 @@ Content identify(SqliteDatabase& database) {
   return Content::kCaseBase;
 }
 
-void checkIntegrity(SqliteDatabase& database) {
-  const std::string answer = database.text("PRAGMA quick_check(1)");
-  if (answer != "ok") {
-    throw SqliteError(database.file(), SQLITE_CORRUPT, answer.substr(0, answer.find('\n')));
+void checkTables(SqliteDatabase& database) {
+  std::vector<std::string> tables{"cases", "outcomes"};
+  if (schemaVersion(database) >= 2) {
+    tables.insert(tables.end(), {"steps", "tubes", "priors"});
   }
-  for (const std::string table : {"cases", "outcomes"}) {
+  for (const std::string& table : tables) {
     if (database.integer("SELECT count(*) FROM sqlite_master WHERE name = '" + table + "'") == 0) {
       throw SqliteError(database.file(), SQLITE_CORRUPT, "no table " + table);
     }
   }
+}
+
+// Reading all of a large file would take longer than anything else. Of such a file only the table
+// of cases is checked at once; damage to trajectories and observations, which have checksums, is
+// noticed when they are read.
+constexpr std::int64_t kLargeFileBytes = 32 * 1024 * 1024;
+
+void checkIntegrity(SqliteDatabase& database) {
+  const bool is_large =
+      database.integer("PRAGMA page_count") * database.integer("PRAGMA page_size") >
+      kLargeFileBytes;
+  const std::string answer =
+      database.text(is_large ? "PRAGMA quick_check(cases)" : "PRAGMA quick_check(1)");
+  if (answer != "ok") {
+    throw SqliteError(database.file(), SQLITE_CORRUPT, answer.substr(0, answer.find('\n')));
+  }
+  checkTables(database);
 }
 
 // SQLite takes the missing rest of a last page for zeros.
@@ -151,24 +133,12 @@ void checkPath(const fs::path& file, CaseBase::Access access) {
   }
 }
 
-void create(SqliteDatabase& database) {
-  SqliteTransaction transaction(database, SqliteTransaction::Kind::kWrite);
-  // Another program may have been quicker.
-  if (identify(database) == Content::kEmpty) {
-    database.execute(kSchema);
-    database.execute("PRAGMA application_id = " + std::to_string(kApplicationId));
-    database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  }
-  transaction.commit();
-}
-
 void verify(SqliteDatabase& database, CaseBase::Access access, bool is_unfinished) {
   database.allowCheckpointOnClose(false);
   if (identify(database) == Content::kEmpty) {
     if (access != CaseBase::Access::kCreate) {
       throw InputError(database.file(), "is empty; learn an object first or check the path");
     }
-    create(database);
   } else if (is_unfinished) {
     checkIntegrity(database);
   }
@@ -194,7 +164,15 @@ SqliteDatabase open(const fs::path& file, CaseBase::Access access, SqliteDatabas
   const bool is_unfinished = isUnfinished(file);
   SqliteDatabase database(file, mode);
   verify(database, access, is_unfinished);
+  if (access == CaseBase::Access::kReadOnly && schemaVersion(database) < kSchemaVersion) {
+    // Only the copy is brought up to date; nobody who merely reads changes a file.
+    database = database.memoryCopy();
+    migrate(database);
+  }
   configure(database, access);
+  if (access != CaseBase::Access::kReadOnly && schemaVersion(database) < kSchemaVersion) {
+    migrate(database);
+  }
   return database;
 }
 

@@ -1,53 +1,17 @@
 #include "case_rows.h"
 
-#include <array>
-#include <cstring>
-
+#include "case_blobs.h"
+#include "casepush/cases/case_tube.h"
 #include "casepush/common/input_error.h"
 
 namespace casepush {
 namespace {
 
-// Column `steps`: for each step nine IEEE 754 doubles, little-endian: x, y, yaw of object_T_robot,
-// vx, vy, wz of the action, x, y, yaw of start_T_object [m, rad, m/s, rad/s].
-constexpr std::size_t kNumbersPerStep = 9;
-constexpr std::size_t kBytesPerStep = kNumbersPerStep * sizeof(double);
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "stored doubles are little-endian");
-
 constexpr char kSelectCases[] =
-    "SELECT id, object, robot, origin, period_s, push_steps, mean_x_m, mean_y_m, mean_yaw_rad, "
-    "cov_x_x, cov_x_y, cov_x_yaw, cov_y_y, cov_y_yaw, cov_yaw_yaw, effective_count, "
-    "observation_count, steps FROM cases ";
-
-std::string encodeSteps(const std::vector<CaseStep>& steps) {
-  std::string bytes(steps.size() * kBytesPerStep, '\0');
-  char* out = bytes.data();
-  for (const CaseStep& step : steps) {
-    const Pose2& r = step.object_T_robot;
-    const Twist2& a = step.action;
-    const Pose2& o = step.start_T_object;
-    const std::array<double, kNumbersPerStep> numbers{r.x(),    r.y(), r.yaw(), a.vx_mps, a.vy_mps,
-                                                      a.wz_rps, o.x(), o.y(),   o.yaw()};
-    std::memcpy(out, numbers.data(), kBytesPerStep);
-    out += kBytesPerStep;
-  }
-  return bytes;
-}
-
-std::vector<CaseStep> decodeSteps(const std::string& bytes, const std::string& where) {
-  if (bytes.size() % kBytesPerStep != 0) {
-    throw InputError(where + ": steps", "is damaged: " + std::to_string(bytes.size()) +
-                                            " bytes are not a whole number of steps");
-  }
-  std::vector<CaseStep> steps;
-  steps.reserve(bytes.size() / kBytesPerStep);
-  for (std::size_t at = 0; at < bytes.size(); at += kBytesPerStep) {
-    std::array<double, kNumbersPerStep> n;
-    std::memcpy(n.data(), bytes.data() + at, kBytesPerStep);
-    steps.push_back({Pose2(n[0], n[1], n[2]), Twist2{n[3], n[4], n[5]}, Pose2(n[6], n[7], n[8])});
-  }
-  return steps;
-}
+    "SELECT id, object, robot, origin, source_id, load_kg, floor, period_s, push_steps, "
+    "effective_count, observation_count, mean_x_m, mean_y_m, mean_yaw_rad, cov_x_x, cov_x_y, "
+    "cov_x_yaw, cov_y_y, cov_y_yaw, cov_yaw_yaw, steps, tube "
+    "FROM cases LEFT JOIN steps ON steps.case_id = id LEFT JOIN tubes ON tubes.case_id = id ";
 
 template <typename Enum>
 Enum orDamaged(const std::optional<Enum>& value, const std::string& where) {
@@ -57,8 +21,8 @@ Enum orDamaged(const std::optional<Enum>& value, const std::string& where) {
   return *value;
 }
 
-std::string whereIs(const SqliteDatabase& database, std::int64_t id) {
-  return database.file() + ": case " + std::to_string(id);
+std::optional<double> optionalReal(const SqliteStatement& row, int column) {
+  return row.isNull(column) ? std::nullopt : std::optional<double>(row.real(column));
 }
 
 Case readCase(const SqliteDatabase& database, const SqliteStatement& row) {
@@ -68,32 +32,43 @@ Case readCase(const SqliteDatabase& database, const SqliteStatement& row) {
   push_case.object = row.text(1);
   push_case.robot = row.text(2);
   push_case.origin = orDamaged(caseOriginFromString(row.text(3)), where + ": origin");
-  push_case.period_s = row.real(4);
-  push_case.push_steps = static_cast<int>(row.integer(5));
-  push_case.start_outcome.mean = Pose2(row.real(6), row.real(7), row.real(8));
-  push_case.start_outcome.covariance << row.real(9), row.real(10), row.real(11),  //
-      row.real(10), row.real(12), row.real(13),                                   //
-      row.real(11), row.real(13), row.real(14);
-  push_case.effective_count = row.real(15);
-  push_case.observation_count = static_cast<int>(row.integer(16));
-  push_case.steps = decodeSteps(row.blob(17), where);
+  push_case.source_id = row.integer(4);
+  push_case.context = {optionalReal(row, 5), row.text(6)};
+  push_case.period_s = row.real(7);
+  push_case.push_steps = static_cast<int>(row.integer(8));
+  push_case.effective_count = row.real(9);
+  push_case.observation_count = static_cast<int>(row.integer(10));
+  push_case.start_outcome = readGaussian(row, 11);
+  push_case.steps = decodeSteps(row.blob(20), where + ": steps");
+  push_case.tube = decodeTube(row.blob(21), where + ": tube");
   validateCase(push_case, where);
   return push_case;
 }
 
-// Mean, upper triangle of the covariance, counts.
-void bindStatistics(SqliteStatement& statement, const Case& push_case) {
-  const Pose2& mean = push_case.start_outcome.mean;
+void bindGaussian(SqliteStatement& statement, const PoseGaussian& gaussian) {
+  const Pose2& mean = gaussian.mean;
   statement.bind(mean.x()).bind(mean.y()).bind(mean.yaw());
   for (int row = 0; row < 3; ++row) {
     for (int column = row; column < 3; ++column) {
-      statement.bind(push_case.start_outcome.covariance(row, column));
+      statement.bind(gaussian.covariance(row, column));
     }
   }
-  statement.bind(push_case.effective_count).bind(std::int64_t{push_case.observation_count});
 }
 
 }  // namespace
+
+std::string whereIs(const SqliteDatabase& database, std::int64_t id) {
+  return database.file() + ": case " + std::to_string(id);
+}
+
+PoseGaussian readGaussian(const SqliteStatement& row, int first_column) {
+  const auto real = [&](int offset) { return row.real(first_column + offset); };
+  PoseGaussian gaussian{Pose2(real(0), real(1), real(2)), {}};
+  gaussian.covariance << real(3), real(4), real(5),  //
+      real(4), real(6), real(7),                     //
+      real(5), real(7), real(8);
+  return gaussian;
+}
 
 std::optional<CaseOrigin> caseOriginFromString(const std::string& text) {
   for (const CaseOrigin origin :
@@ -153,47 +128,115 @@ std::optional<Case> selectCase(SqliteDatabase& database, std::int64_t id) {
   return readCase(database, row);
 }
 
+CasePrior selectPrior(SqliteDatabase& database, std::int64_t id) {
+  SqliteStatement row(database,
+                      "SELECT after_number, effective_count, observation_count, noise_m, "
+                      "noise_rad, mean_x_m, mean_y_m, mean_yaw_rad, cov_x_x, cov_x_y, cov_x_yaw, "
+                      "cov_y_y, cov_y_yaw, cov_yaw_yaw, tube FROM priors WHERE case_id = ?");
+  const std::string where = whereIs(database, id) + ": prior";
+  if (!row.bind(id).step()) {
+    throw InputError(where, "is damaged: it is missing; restore a copy of the file");
+  }
+  CasePrior prior;
+  prior.after_number = static_cast<int>(row.integer(0));
+  prior.effective_count = row.real(1);
+  prior.observation_count = static_cast<int>(row.integer(2));
+  prior.noise = {row.real(3), row.real(4)};
+  prior.start_outcome = readGaussian(row, 5);
+  if (!row.isNull(14)) {
+    prior.tube = decodeTube(row.blob(14), where);
+  }
+  return prior;
+}
+
 std::vector<ObservedOutcome> selectHistory(SqliteDatabase& database, std::int64_t id) {
   SqliteStatement rows(database,
-                       "SELECT source, x_m, y_m, yaw_rad, past_weight FROM outcomes "
-                       "WHERE case_id = ? ORDER BY number");
+                       "SELECT source, x_m, y_m, yaw_rad, past_weight, noise_m, noise_rad, "
+                       "stamp_s, load_kg, floor, path FROM outcomes WHERE case_id = ? "
+                       "ORDER BY number");
   rows.bind(id);
+  const std::string where = whereIs(database, id) + ": history";
   std::vector<ObservedOutcome> history;
   while (rows.step()) {
-    const auto source = orDamaged(outcomeSourceFromString(rows.text(0)), whereIs(database, id));
-    history.push_back({Pose2(rows.real(1), rows.real(2), rows.real(3)), source, rows.real(4)});
+    ObservedOutcome outcome;
+    outcome.source = orDamaged(outcomeSourceFromString(rows.text(0)), where);
+    outcome.start_T_object = Pose2(rows.real(1), rows.real(2), rows.real(3));
+    outcome.past_weight = rows.real(4);
+    outcome.noise = {rows.real(5), rows.real(6)};
+    outcome.stamp_s = optionalReal(rows, 7);
+    outcome.context = {optionalReal(rows, 8), rows.text(9)};
+    if (!rows.isNull(10)) {
+      outcome.path = decodePath(rows.blob(10), where);
+    }
+    history.push_back(std::move(outcome));
   }
   return history;
+}
+
+CaseRecord selectRecord(SqliteDatabase& database, const Case& push_case) {
+  return {push_case, selectPrior(database, push_case.id), selectHistory(database, push_case.id)};
 }
 
 std::int64_t insertCase(SqliteDatabase& database, const CaseRecord& record) {
   const Case& push_case = record.push_case;
   SqliteStatement statement(
       database,
-      "INSERT INTO cases (object, robot, origin, period_s, push_steps, steps, mean_x_m, mean_y_m, "
-      "mean_yaw_rad, cov_x_x, cov_x_y, cov_x_yaw, cov_y_y, cov_y_yaw, cov_yaw_yaw, "
-      "effective_count, observation_count) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+      "INSERT INTO cases (object, robot, origin, source_id, load_kg, floor, period_s, push_steps, "
+      "mean_x_m, mean_y_m, mean_yaw_rad, cov_x_x, cov_x_y, cov_x_yaw, cov_y_y, cov_y_yaw, "
+      "cov_yaw_yaw, effective_count, observation_count) "
+      "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   statement.bind(push_case.object).bind(push_case.robot).bind(toString(push_case.origin));
+  statement.bind(push_case.source_id);
+  statement.bind(push_case.context.load_kg).bind(push_case.context.floor);
   statement.bind(push_case.period_s).bind(std::int64_t{push_case.push_steps});
-  statement.bindBlob(encodeSteps(push_case.steps));
-  bindStatistics(statement, push_case);
+  bindGaussian(statement, push_case.start_outcome);
+  statement.bind(push_case.effective_count).bind(std::int64_t{push_case.observation_count});
   statement.run();
   const std::int64_t id = database.lastInsertId();
+  insertTrajectories(database, id, push_case.steps, push_case.tube);
+  replacePrior(database, id, record.prior);
   for (const ObservedOutcome& outcome : record.history) {
     insertOutcome(database, id, outcome);
   }
   return id;
 }
 
+void insertTrajectories(SqliteDatabase& database, std::int64_t id,
+                        const std::vector<CaseStep>& steps, const std::vector<PoseGaussian>& tube) {
+  SqliteStatement(database, "INSERT INTO steps VALUES (?, ?)")
+      .bind(id)
+      .bindBlob(encodeSteps(steps))
+      .run();
+  SqliteStatement(database, "INSERT INTO tubes VALUES (?, ?)")
+      .bind(id)
+      .bindBlob(encodeTube(tube))
+      .run();
+}
+
 void insertOutcome(SqliteDatabase& database, std::int64_t id, const ObservedOutcome& outcome) {
   SqliteStatement statement(
       database,
-      "INSERT INTO outcomes (case_id, number, source, x_m, y_m, yaw_rad, past_weight) "
+      "INSERT INTO outcomes (case_id, number, source, x_m, y_m, yaw_rad, past_weight, noise_m, "
+      "noise_rad, stamp_s, load_kg, floor, path) "
       "VALUES (?1, (SELECT ifnull(max(number), 0) + 1 FROM outcomes WHERE case_id = ?1), "
-      "?2, ?3, ?4, ?5, ?6)");
+      "?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)");
   const Pose2& pose = outcome.start_T_object;
   statement.bind(id).bind(toString(outcome.source));
-  statement.bind(pose.x()).bind(pose.y()).bind(pose.yaw()).bind(outcome.past_weight).run();
+  statement.bind(pose.x()).bind(pose.y()).bind(pose.yaw()).bind(outcome.past_weight);
+  statement.bind(outcome.noise.position_m).bind(outcome.noise.yaw_rad).bind(outcome.stamp_s);
+  statement.bind(outcome.context.load_kg).bind(outcome.context.floor);
+  if (!outcome.path.empty()) {
+    statement.bindBlob(encodePath(outcome.path));
+  }
+  statement.run();
+}
+
+void deleteLastOutcome(SqliteDatabase& database, std::int64_t id) {
+  SqliteStatement(database,
+                  "DELETE FROM outcomes WHERE case_id = ?1 AND number = "
+                  "(SELECT max(number) FROM outcomes WHERE case_id = ?1)")
+      .bind(id)
+      .run();
 }
 
 void updateStatistics(SqliteDatabase& database, const Case& push_case) {
@@ -202,8 +245,41 @@ void updateStatistics(SqliteDatabase& database, const Case& push_case) {
       "UPDATE cases SET mean_x_m = ?, mean_y_m = ?, mean_yaw_rad = ?, cov_x_x = ?, cov_x_y = ?, "
       "cov_x_yaw = ?, cov_y_y = ?, cov_y_yaw = ?, cov_yaw_yaw = ?, effective_count = ?, "
       "observation_count = ? WHERE id = ?");
-  bindStatistics(statement, push_case);
+  bindGaussian(statement, push_case.start_outcome);
+  statement.bind(push_case.effective_count).bind(std::int64_t{push_case.observation_count});
   statement.bind(push_case.id).run();
+  SqliteStatement(database, "UPDATE tubes SET tube = ? WHERE case_id = ?")
+      .bindBlob(encodeTube(push_case.tube))
+      .bind(push_case.id)
+      .run();
+}
+
+void updateSteps(SqliteDatabase& database, const Case& push_case) {
+  SqliteStatement(database, "UPDATE cases SET period_s = ?, push_steps = ? WHERE id = ?")
+      .bind(push_case.period_s)
+      .bind(std::int64_t{push_case.push_steps})
+      .bind(push_case.id)
+      .run();
+  SqliteStatement(database, "UPDATE steps SET steps = ? WHERE case_id = ?")
+      .bindBlob(encodeSteps(push_case.steps))
+      .bind(push_case.id)
+      .run();
+}
+
+void replacePrior(SqliteDatabase& database, std::int64_t id, const CasePrior& prior) {
+  SqliteStatement statement(
+      database,
+      "INSERT OR REPLACE INTO priors (case_id, after_number, mean_x_m, mean_y_m, mean_yaw_rad, "
+      "cov_x_x, cov_x_y, cov_x_yaw, cov_y_y, cov_y_yaw, cov_yaw_yaw, effective_count, "
+      "observation_count, noise_m, noise_rad, tube) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  statement.bind(id).bind(std::int64_t{prior.after_number});
+  bindGaussian(statement, prior.start_outcome);
+  statement.bind(prior.effective_count).bind(std::int64_t{prior.observation_count});
+  statement.bind(prior.noise.position_m).bind(prior.noise.yaw_rad);
+  if (!prior.tube.empty()) {
+    statement.bindBlob(encodeTube(prior.tube));
+  }
+  statement.run();
 }
 
 void deleteCase(SqliteDatabase& database, std::int64_t id) {

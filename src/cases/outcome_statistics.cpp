@@ -1,5 +1,6 @@
 #include "casepush/cases/outcome_statistics.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -7,14 +8,14 @@
 
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
+#include "casepush/common/paper_similarity.h"
 
 namespace casepush {
 namespace {
 
-void requirePositive(const char* key, double value) {
+void requirePositive(const char* where, double value) {
   if (!std::isfinite(value) || value <= 0.0) {
-    throw InputError(std::string("covariance floor: ") + key,
-                     "is " + std::to_string(value) + "; must be finite and > 0");
+    throw InputError(where, "is " + std::to_string(value) + "; must be finite and > 0");
   }
 }
 
@@ -39,18 +40,19 @@ OutcomeStatistics blend(const OutcomeStatistics& past, const Pose2& start_T_obje
 }  // namespace
 
 void CovarianceFloor::validate() const {
-  requirePositive("position_m", position_m);
-  requirePositive("yaw_rad", yaw_rad);
+  requirePositive("covariance floor: position_m", position_m);
+  requirePositive("covariance floor: yaw_rad", yaw_rad);
 }
 
 Eigen::Matrix3d raiseToFloor(const Eigen::Matrix3d& covariance, const CovarianceFloor& floor) {
   const Eigen::Vector3d scale(floor.position_m, floor.position_m, floor.yaw_rad);
   const Eigen::Matrix3d scaled =
       scale.cwiseInverse().asDiagonal() * covariance * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scaled);
-  if (solver.eigenvalues().minCoeff() >= 1.0) {
+  const Eigen::Matrix3d excess = scaled - Eigen::Matrix3d::Identity();
+  if (excess.llt().info() == Eigen::Success) {
     return covariance;
   }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scaled);
   const Eigen::Matrix3d root = scale.asDiagonal() * solver.eigenvectors();
   const Eigen::Matrix3d raised =
       root * solver.eigenvalues().cwiseMax(1.0).asDiagonal() * root.transpose();
@@ -65,15 +67,37 @@ OutcomeStatistics addObservation(const OutcomeStatistics& past, const Pose2& sta
 
 OutcomeStatistics adapt(const OutcomeStatistics& past, const Pose2& start_T_object, double weight,
                         const CovarianceFloor& floor) {
-  CASEPUSH_CHECK(weight >= 1.0 && weight <= past.effective_count,
-                 "weight = " << weight << ", count = " << past.effective_count);
+  CASEPUSH_CHECK(std::isfinite(weight) && weight >= 0.0, "weight = " << weight);
   return blend(past, start_T_object, weight, floor);
 }
 
-double adaptationWeight(double p_value, double scale_k, double effective_count) {
+const char* toString(PastWeight weight) {
+  return weight == PastWeight::kBounded ? "bounded" : "paper";
+}
+
+PastWeight pastWeightFromString(const std::string& text, const std::string& where) {
+  for (const PastWeight weight : {PastWeight::kBounded, PastWeight::kPaper}) {
+    if (text == toString(weight)) {
+      return weight;
+    }
+  }
+  throw InputError(where, "is '" + text + "'; must be bounded or paper");
+}
+
+void AdaptationOptions::validate() const {
+  requirePositive("adaptation: scale_k", scale_k);
+  requirePositive("adaptation: largest_distance_m", largest_distance_m);
+}
+
+double adaptationWeight(const OutcomeStatistics& past, const Pose2& start_T_object, double p_value,
+                        const AdaptationOptions& options) {
   CASEPUSH_CHECK(p_value >= 0.0 && p_value <= 1.0, "p = " << p_value);
-  CASEPUSH_CHECK(scale_k > 0.0, "K = " << scale_k);
-  return std::max(1.0, std::min(p_value * scale_k, effective_count));
+  options.validate();
+  if (options.weight == PastWeight::kPaper) {
+    return options.scale_k *
+           paperSimilarity(past.start_outcome.mean, start_T_object, options.largest_distance_m);
+  }
+  return std::min(past.effective_count, std::max(1.0, p_value * options.scale_k));
 }
 
 }  // namespace casepush

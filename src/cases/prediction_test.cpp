@@ -65,8 +65,9 @@ PredictionTest testPrediction(const OutcomeStatistics& past, const Pose2& start_
   }
   const Eigen::Matrix3d& covariance = past.start_outcome.covariance;
   if (n <= kDimension + 1.0) {
-    const double t_squared =
-        squaredMahalanobis(e, (1.0 + 1.0 / n) * (covariance + diagonal(kPrior)));
+    // A count below 1 belongs to a covariance that holds the uncertainty of the mean already.
+    const double spread = n < 1.0 ? 1.0 : 1.0 + 1.0 / n;
+    const double t_squared = squaredMahalanobis(e, spread * (covariance + diagonal(kPrior)));
     return verdict(t_squared, chiSquareTail(t_squared), alpha);
   }
   const double t_squared = n / (n + 1.0) * squaredMahalanobis(e, n / (n - 1.0) * covariance);

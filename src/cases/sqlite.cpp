@@ -78,6 +78,27 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file, Mode mode)
   sqlite3_busy_timeout(handle, kBusyTimeoutMs);
 }
 
+SqliteDatabase SqliteDatabase::memoryCopy() const {
+  SqliteDatabase copy;
+  copy.file_ = file_;
+  sqlite3* handle = nullptr;
+  int code = sqlite3_open(":memory:", &handle);
+  copy.handle_.reset(handle);
+  if (code != SQLITE_OK) {
+    copy.fail(code);
+  }
+  sqlite3_backup* backup = sqlite3_backup_init(handle, "main", handle_.get(), "main");
+  if (backup == nullptr) {
+    copy.fail(sqlite3_errcode(handle));
+  }
+  sqlite3_backup_step(backup, -1);
+  code = sqlite3_backup_finish(backup);
+  if (code != SQLITE_OK) {
+    copy.fail(code);
+  }
+  return copy;
+}
+
 void SqliteDatabase::fail(int code) const {
   throw SqliteError(file_, code, handle_ ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code));
 }
@@ -139,6 +160,14 @@ SqliteStatement& SqliteStatement::bind(double value) {
   return *this;
 }
 
+SqliteStatement& SqliteStatement::bind(const std::optional<double>& value) {
+  if (value) {
+    return bind(*value);
+  }
+  require(sqlite3_bind_null(handle_.get(), ++bound_));
+  return *this;
+}
+
 SqliteStatement& SqliteStatement::bind(const std::string& value) {
   require(sqlite3_bind_text64(handle_.get(), ++bound_, value.data(), value.size(), SQLITE_TRANSIENT,
                               SQLITE_UTF8));
@@ -167,6 +196,10 @@ std::int64_t SqliteStatement::integer(int column) const {
 
 double SqliteStatement::real(int column) const {
   return sqlite3_column_double(handle_.get(), column);
+}
+
+bool SqliteStatement::isNull(int column) const {
+  return sqlite3_column_type(handle_.get(), column) == SQLITE_NULL;
 }
 
 std::string SqliteStatement::text(int column) const { return blob(column); }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "casepush/common/input_error.h"
@@ -44,6 +45,9 @@ class SqliteDatabase {
   /// Whether closing the last connection may write the log back into the main file.
   void allowCheckpointOnClose(bool allowed);
 
+  /// A copy of the content that lives in memory; it keeps the file's name for messages.
+  SqliteDatabase memoryCopy() const;
+
   const std::string& file() const { return file_; }
 
  private:
@@ -51,6 +55,7 @@ class SqliteDatabase {
   struct Closer {
     void operator()(sqlite3* handle) const;
   };
+  SqliteDatabase() = default;
   [[noreturn]] void fail(int code) const;
 
   std::string file_;
@@ -64,6 +69,7 @@ class SqliteStatement {
 
   SqliteStatement& bind(std::int64_t value);
   SqliteStatement& bind(double value);
+  SqliteStatement& bind(const std::optional<double>& value);  ///< NULL if there is none.
   SqliteStatement& bind(const std::string& value);
   SqliteStatement& bindBlob(const std::string& bytes);
 
@@ -72,6 +78,7 @@ class SqliteStatement {
 
   std::int64_t integer(int column) const;
   double real(int column) const;
+  bool isNull(int column) const;
   std::string text(int column) const;
   std::string blob(int column) const;
 

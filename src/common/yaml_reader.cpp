@@ -160,6 +160,14 @@ std::string YamlReader::text(const std::string& key) {
   return value;
 }
 
+std::string YamlReader::block(const std::string& key) {
+  const YAML::Node node = state_->get(key);
+  if (!node.IsDefined() || !node.IsScalar() || node.Scalar().empty()) {
+    throw InputError(where(key), "must be a non-empty block of lines");
+  }
+  return node.Scalar();
+}
+
 std::string YamlReader::text(const std::string& key, const std::string& default_value) {
   return has(key) ? text(key) : default_value;
 }

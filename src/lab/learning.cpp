@@ -1,5 +1,6 @@
 #include "casepush/lab/learning.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace casepush {
@@ -38,6 +39,22 @@ ExecutePush makePush(const Exploration::Trial& trial, const CaseBase& case_base,
   return ExecutePush(kObjectId, trial.configuration, robot, straightPath, options);
 }
 
+// Those that were learnt with the same load.
+std::vector<Case> casesOf(const CaseBase& case_base, const std::string& object,
+                          const PushContext& context) {
+  std::vector<Case> cases = case_base.cases(object);
+  const auto is_other = [&](const Case& push_case) {
+    return contextDistance(push_case.context, context) > 0.0;
+  };
+  cases.erase(std::remove_if(cases.begin(), cases.end(), is_other), cases.end());
+  return cases;
+}
+
+Case withContext(Case push_case, const PushContext& context) {
+  push_case.context = context;
+  return push_case;
+}
+
 }  // namespace
 
 LearningResult learnInLab(const Catalog& catalog, const std::string& object,
@@ -52,7 +69,9 @@ LearningResult learnInLab(const Catalog& catalog, const std::string& object,
   const ObjectModel& object_model = loop.simulator().object(kObjectId);
   const RobotModel& robot_model = loop.simulator().robot();
   Exploration exploration(object_model, robot_model, options.exploration);
-  exploration.resume(case_base.cases(object_model.name));
+  PushContext context;
+  context.load_kg = options.load ? options.load->mass_kg : 0.0;
+  exploration.resume(casesOf(case_base, object_model.name, context));
 
   LearningResult result;
   while (const std::optional<Exploration::Trial> trial = exploration.next()) {
@@ -74,12 +93,12 @@ LearningResult learnInLab(const Catalog& catalog, const std::string& object,
     const PushReport& report = *push.report();
     std::optional<Case> updated;
     if (trial->case_id && isObservation(report)) {
-      updated =
-          case_base.observe(*trial->case_id, report.recorded.start_outcome.mean, options.floor);
+      updated = case_base.observe(*trial->case_id, observedPush(report, context), options.floor);
     }
     switch (exploration.judge(report, updated)) {
       case Exploration::Verdict::kStoreCase:
-        exploration.stored(case_base.add(report.recorded));
+        exploration.stored(
+            case_base.add(withContext(report.recorded, context), report.end_stamp_s));
         break;
       case Exploration::Verdict::kDropCase:
         case_base.remove(*trial->case_id);

@@ -21,14 +21,11 @@ class WorkingCases {
     }
     for (Case& push_case : cases_) {
       if (push_case.id == report.case_id) {
-        const OutcomeStatistics past{push_case.start_outcome, push_case.effective_count};
+        const ObservedPush push = observedPush(report);
         const double weight =
-            adaptationWeight(report.test.p_value, options_.adaptation_k, push_case.effective_count);
-        const OutcomeStatistics now =
-            adapt(past, report.map_T_start.inverse() * report.map_T_end, weight, options_.floor);
-        push_case.start_outcome = now.start_outcome;
-        push_case.effective_count = now.effective_count;
-        ++push_case.observation_count;
+            adaptationWeight({push_case.start_outcome, push_case.effective_count},
+                             push.start_T_object, report.test.p_value, options_.adaptation);
+        push_case = withPush(std::move(push_case), push, weight, options_.floor);
       }
     }
   }

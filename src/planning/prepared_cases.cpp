@@ -85,18 +85,4 @@ std::vector<PreparedCase> prepareCases(const std::vector<Case>& cases, double ze
   return prepared;
 }
 
-double pushDirection(const Case& push_case) {
-  // Far enough that neither the noise of the poses nor a correction at the start decides.
-  constexpr double kClearMotionM = 0.05;
-  const Eigen::Vector2d start = push_case.steps.front().start_T_robot().position();
-  for (const CaseStep& step : push_case.steps) {
-    const Eigen::Vector2d motion = step.start_T_robot().position() - start;
-    if (motion.norm() > kClearMotionM) {
-      return std::atan2(motion.y(), motion.x());
-    }
-  }
-  // A push that only turns: towards the object.
-  return std::atan2(-start.y(), -start.x());
-}
-
 }  // namespace casepush

@@ -32,17 +32,16 @@ void LearnerNode::onReport(const ExecutedPush& message) {
 
 void LearnerNode::adaptBy(const PushReport& report) {
   const std::lock_guard<std::mutex> lock(base_mutex_);
-  const Case known = base_.get(report.case_id);
-  const double weight =
-      adaptationWeight(report.test.p_value, parameters_.adaptation_k, known.effective_count);
-  base_.adapt(report.case_id, report.recorded.start_outcome.mean, weight, parameters_.floor);
+  const std::int64_t id = base_.forContext(report.case_id, parameters_.context);
+  base_.adapt(id, observedPush(report, parameters_.context), report.test.p_value,
+              parameters_.adaptation, parameters_.floor);
 }
 
 bool LearnerNode::onExport(ExportCases::Request& request, ExportCases::Response& response) {
   const std::lock_guard<std::mutex> lock(base_mutex_);
   try {
     base_.exportYaml(request.file);
-    response.count = static_cast<std::uint32_t>(base_.cases().size());
+    response.count = static_cast<std::uint32_t>(base_.count());
     response.success = true;
   } catch (const InputError& error) {
     response.message = error.what();
@@ -65,7 +64,8 @@ bool LearnerNode::onImport(ImportCases::Request& request, ImportCases::Response&
 void LearnerNode::publishCases() {
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
-    cases_.publish(toMessage(base_.cases(), ros::Time::now().toSec()));
+    cases_.publish(
+        toMessage(inContext(base_.cases(), parameters_.context), ros::Time::now().toSec()));
   }
   publishMarkers();
 }
@@ -89,14 +89,15 @@ void LearnerNode::publishMarkers() {
   shown_at_ = object->map_T_object;
   lock.unlock();
   const std::lock_guard<std::mutex> base_lock(base_mutex_);
-  markers_.publish(caseMarkers(base_.cases(object->model), object->map_T_object));
+  markers_.publish(caseMarkers(inContext(base_.cases(object->model), parameters_.context),
+                               object->map_T_object));
 }
 
 void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, server_.isActive() ? "learning" : "idle");
   status.add("case base", parameters_.case_base);
   const std::lock_guard<std::mutex> lock(base_mutex_);
-  status.add("cases", base_.cases().size());
+  status.add("cases", base_.count());
 }
 
 }  // namespace casepush

@@ -302,14 +302,16 @@ std::optional<ExecutePushResult> LearnerNode::call(const ExecutePushGoal& goal, 
 void LearnerNode::store(Run& run, const Exploration::Trial& trial, const PushReport& report) {
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
+    Case recorded = report.recorded;
+    recorded.context = parameters_.context;
     std::optional<Case> updated;
     if (trial.case_id && isObservation(report)) {
-      updated =
-          base_.observe(*trial.case_id, report.recorded.start_outcome.mean, parameters_.floor);
+      updated = base_.observe(*trial.case_id, observedPush(report, parameters_.context),
+                              parameters_.floor);
     }
     switch (run.exploration->judge(report, updated)) {
       case Exploration::Verdict::kStoreCase:
-        run.exploration->stored(base_.add(report.recorded));
+        run.exploration->stored(base_.add(recorded, report.end_stamp_s));
         break;
       case Exploration::Verdict::kDropCase:
         base_.remove(*trial.case_id);

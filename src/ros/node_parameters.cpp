@@ -275,7 +275,17 @@ LearnerNodeParameters loadLearnerNodeParameters(ParameterReader reader, const Ca
   reader.read("case_base", parameters.case_base);
   reader.read("floor_position", parameters.floor.position_m, 1e-6, 1.0);
   reader.read("floor_yaw", parameters.floor.yaw_rad, 1e-6, 1.0);
-  reader.read("adaptation_k", parameters.adaptation_k, 1.0, kUnbounded);
+  reader.read("adaptation_k", parameters.adaptation.scale_k, 1.0, kUnbounded);
+  std::string weight = toString(parameters.adaptation.weight);
+  reader.read("adaptation_weight", weight, {"bounded", "paper"});
+  reader.check(
+      [&] { parameters.adaptation.weight = pastWeightFromString(weight, "adaptation_weight"); });
+  double load_kg = -1.0;
+  reader.read("load", load_kg, -1.0, 10000.0);
+  if (load_kg >= 0.0) {
+    parameters.context.load_kg = load_kg;
+  }
+  reader.read("floor_name", parameters.context.floor);
   std::string reset = "auto";
   reader.read("reset", reset, {"auto", "teleport", "drive"});
   parameters.reset = reset == "auto"       ? ResetMode::kAuto

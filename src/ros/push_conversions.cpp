@@ -1,6 +1,7 @@
 #include "casepush/ros/push_conversions.h"
 
 #include <cmath>
+#include <limits>
 
 #include "casepush/common/input_error.h"
 #include "casepush/ros/conversions.h"
@@ -30,6 +31,8 @@ static_assert(PlanPushResult::UNREACHABLE == static_cast<int>(PlanStatus::kUnrea
 static_assert(PlanPushResult::DEADLINE == static_cast<int>(PlanStatus::kDeadline));
 static_assert(PlanPushResult::CANCELLED == static_cast<int>(PlanStatus::kCancelled));
 static_assert(PlanPushResult::PLANNER_GONE == static_cast<int>(PlanStatus::kPlannerGone));
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 template <typename Enum>
 Enum enumFrom(int code, Enum last, const char* where) {
@@ -88,6 +91,12 @@ PushCase toMessage(const Case& push_case) {
   message.outcome = toMessage(push_case.start_outcome);
   message.effective_count = push_case.effective_count;
   message.observation_count = static_cast<std::uint32_t>(push_case.observation_count);
+  message.source_id = push_case.source_id;
+  message.load = push_case.context.load_kg.value_or(kUnknown);
+  message.floor = push_case.context.floor;
+  for (const PoseGaussian& step : push_case.tube) {
+    message.tube.push_back(toMessage(step));
+  }
   return message;
 }
 
@@ -107,6 +116,14 @@ Case fromMessage(const PushCase& message) {
   push_case.start_outcome = fromMessage(message.outcome);
   push_case.effective_count = message.effective_count;
   push_case.observation_count = static_cast<int>(message.observation_count);
+  push_case.source_id = message.source_id;
+  if (!std::isnan(message.load)) {
+    push_case.context.load_kg = message.load;
+  }
+  push_case.context.floor = message.floor;
+  for (const Pose2DWithCovariance& step : message.tube) {
+    push_case.tube.push_back(fromMessage(step));
+  }
   return push_case;
 }
 

@@ -2,6 +2,7 @@
 #include <iterator>
 #include <memory>
 
+#include "bench_cases.h"
 #include "casepush/lab/sim_benchmark.h"
 #include "command.h"
 #include "sim_bench_json.h"
@@ -133,6 +134,7 @@ void addBenchCommand(CLI::App& app, Run& run) {
   auto arguments = std::make_shared<BenchArguments>();
   CLI::App* bench = app.add_subcommand("bench", "Measure parts of casepush");
   bench->require_subcommand(1);
+  addBenchCasesCommand(*bench, run);
   CLI::App* command = bench->add_subcommand(
       "sim", "Compare the caster models: outcomes of random pushes as distributions, and speed");
   addCommonOptions(*command, arguments->common);

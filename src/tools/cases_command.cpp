@@ -1,9 +1,9 @@
+#include "cases_command.h"
+
 #include <filesystem>
 #include <memory>
 
-#include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
-#include "command.h"
 
 namespace casepush {
 namespace {
@@ -30,6 +30,9 @@ int list(const CasesArguments& arguments) {
                      {"sigma", {sigma.x(), sigma.y(), sigma.z()}},
                      {"effective_count", push_case.effective_count},
                      {"observations", push_case.observation_count}});
+    if (push_case.source_id != 0) cases.back()["source_id"] = push_case.source_id;
+    if (push_case.context.load_kg) cases.back()["load_kg"] = *push_case.context.load_kg;
+    if (!push_case.context.floor.empty()) cases.back()["floor"] = push_case.context.floor;
   }
   if (arguments.json) {
     printResult({{"cases", cases}}, true);
@@ -54,7 +57,7 @@ int list(const CasesArguments& arguments) {
 int exportCases(const CasesArguments& arguments) {
   const CaseBase case_base(arguments.case_base, CaseBase::Access::kReadOnly);
   case_base.exportYaml(arguments.file);
-  printResult({{"success", true}, {"exported", case_base.cases().size()}, {"file", arguments.file}},
+  printResult({{"success", true}, {"exported", case_base.count()}, {"file", arguments.file}},
               arguments.json);
   return kExitSuccess;
 }
@@ -79,18 +82,11 @@ int importCases(const CasesArguments& arguments) {
 
 void addCasesCommand(CLI::App& app, Run& run) {
   auto arguments = std::make_shared<CasesArguments>();
-  CLI::App* cases = app.add_subcommand("cases", "List, export and import a case base");
+  CLI::App* cases = app.add_subcommand("cases", "Look after a case base");
   cases->require_subcommand(1);
   const auto add = [&](const std::string& name, const std::string& description,
                        int (*action)(const CasesArguments&)) {
-    CLI::App* command = cases->add_subcommand(name, description);
-    command->add_option("--case-base", arguments->case_base, "SQLite file")
-        ->required()
-        ->check(notEmpty());
-    command->add_flag("--json", arguments->json, "Print one JSON object on stdout");
-    command->callback(
-        [arguments, action, &run] { run = [arguments, action] { return action(*arguments); }; });
-    return command;
+    return addCasesSubcommand(*cases, run, name, description, arguments, action);
   };
   add("list", "Show the cases with their outcomes", list)
       ->add_option("--object", arguments->object, "Only cases of this object");
@@ -100,6 +96,8 @@ void addCasesCommand(CLI::App& app, Run& run) {
   add("import", "Add all cases of a YAML file, or none", importCases)
       ->add_option("file", arguments->file, "YAML file to read")
       ->required();
+  addCasesEditCommands(*cases, run);
+  addCasesShowCommands(*cases, run);
 }
 
 }  // namespace casepush

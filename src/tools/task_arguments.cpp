@@ -55,7 +55,7 @@ Task prepareTask(const TaskArguments& arguments) {
   const WorldModel world = loadWorld(task.catalog, arguments.world);
   const std::string robot = task.catalog.robot(world.robot).name;
   for (const Case& push_case :
-       CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name)) {
+       inContext(CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name), {})) {
     if (isFor(push_case, name, robot)) {
       task.cases.push_back(push_case);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "casepush/common/pose_gaussian.h"
 #include "casepush/model/push_report.h"
 
@@ -42,14 +44,36 @@ OutcomeStatistics addObservation(const OutcomeStatistics& past, const Pose2& sta
 /// Adds one observation with the past counting `weight` observations: paper eq. 7-9. With
 /// `weight == past.effective_count` it is addObservation.
 /// @return Updated statistics, worth `weight + 1` observations.
-/// @pre 1 <= weight <= past.effective_count.
+/// @pre weight is finite and >= 0.
 /// @throws InputError as addObservation.
 OutcomeStatistics adapt(const OutcomeStatistics& past, const Pose2& start_T_object, double weight,
                         const CovarianceFloor& floor);
 
-/// W = s K of method.md: the p-value of the prediction test, bounded to [1, effective_count].
-/// @pre 0 <= p_value <= 1, scale_k > 0.
-double adaptationWeight(double p_value, double scale_k, double effective_count);
+/// How many observations the past counts when a case is adapted: W of paper eq. 7.
+enum class PastWeight {
+  /// W = s K with s the p-value of the prediction test, and 1 <= W <= effective count (but never
+  /// more than the effective count): the past gives way to what it cannot explain.
+  kBounded,
+  /// W = sim K as printed, with sim of eq. 3 (paperSimilarity): hundreds for any deviation below a
+  /// metre, so that the past hardly ever gives way. For comparison.
+  kPaper,
+};
+const char* toString(PastWeight weight);
+/// @throws InputError unless `text` is "bounded" or "paper".
+PastWeight pastWeightFromString(const std::string& text, const std::string& where);
+
+struct AdaptationOptions {
+  PastWeight weight = PastWeight::kBounded;
+  double scale_k = 20.0;             ///< K; paper: the number of initial practices.
+  double largest_distance_m = 21.2;  ///< d_max of eq. 3, the diagonal of the environment.
+
+  void validate() const;  ///< @throws InputError unless both are finite and positive.
+};
+
+/// W of eq. 7 for a case about to be adapted by `start_T_object`.
+/// @param p_value  Of the prediction test that was made before, in [0, 1].
+double adaptationWeight(const OutcomeStatistics& past, const Pose2& start_T_object, double p_value,
+                        const AdaptationOptions& options);
 
 /// Hotelling's prediction region for a new observation, n = effective_count, p = 3:
 /// T^2 = n/(n+1) e' S^-1 e with the unbiased S; T^2 (n-p) / (p (n-1)) ~ F(p, n-p).
@@ -57,7 +81,9 @@ double adaptationWeight(double p_value, double scale_k, double effective_count);
 /// For n <= p + 1 the F distribution does not exist or says nothing. Then T^2 = e' S^-1 e with
 /// S = (1 + 1/n) (covariance + prior) is tested against chi-square with 3 degrees of freedom; the
 /// prior is the scatter of a push nobody knows anything about, (0.15 m)^2 and (0.3 rad)^2. Raises
-/// at most alpha false alarms as long as pushes scatter less than that.
+/// at most alpha false alarms as long as pushes scatter less than that. With n < 1 the covariance
+/// is a guess that already holds the uncertainty of the mean (see transfer.h), and S = covariance +
+/// prior.
 /// @return {0, 1, false} if nothing has been observed yet.
 /// @pre 0 < alpha < 1.
 /// @throws InputError if the pose is not finite.

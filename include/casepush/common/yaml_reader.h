@@ -36,6 +36,7 @@ class YamlReader {
   int integer(const std::string& key, int low, int high, int default_value);
   std::string text(const std::string& key);
   std::string text(const std::string& key, const std::string& default_value);
+  std::string block(const std::string& key);  ///< Text of one or more lines; required.
   bool flag(const std::string& key, bool default_value);
 
   /// List of finite numbers of the given length (`count` < 0: any length).

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "casepush/cases/outcome_statistics.h"
+#include "casepush/cases/observed_push.h"
 #include "casepush/execution/push_task.h"
 #include "casepush/lab/closed_loop.h"
 
@@ -54,7 +54,7 @@ struct PushRunOptions {
   PushTaskOptions task;
   CovarianceFloor floor;
   bool adapt = true;           ///< In memory only; the case base is not touched.
-  double adaptation_k = 20.0;  ///< Paper: the number of initial practices.
+  AdaptationOptions adaptation;
   double time_limit_s = 1200.0;
 };
 

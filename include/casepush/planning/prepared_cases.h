@@ -32,7 +32,4 @@ constexpr double kStepPerCell = 0.5;
 std::vector<PreparedCase> prepareCases(const std::vector<Case>& cases, double zeta, double step_m,
                                        double object_radius_m, double robot_radius_m);
 
-/// Heading of the robot's first motion in a case, in the frame of the resting object [rad].
-double pushDirection(const Case& push_case);
-
 }  // namespace casepush

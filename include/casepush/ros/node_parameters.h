@@ -69,7 +69,8 @@ struct LearnerNodeParameters {
   std::string case_base = "cases.db";
   ExplorationOptions exploration;  ///< cases, practices and seed come with each goal.
   CovarianceFloor floor;
-  double adaptation_k = 20.0;  ///< Paper eq. 7: the number of initial practices.
+  AdaptationOptions adaptation;
+  PushContext context;  ///< That pushes are made in; cases are adapted and published for it.
   ResetMode reset = ResetMode::kAuto;
   std::optional<Pose2> home;  ///< Where the object starts each push; none: the freest place.
 };

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -26,6 +27,15 @@ Pose2 outcomeOf(std::int64_t case_id, std::int64_t number) {
   return {0.001 * static_cast<double>(case_id), 0.0001 * static_cast<double>(number), 0.1};
 }
 
+// Which push is observed, too.
+ObservedPush pushOf(const Case& push_case, std::int64_t number) {
+  Random random(static_cast<std::uint64_t>(100 * push_case.id + number));
+  ObservedPush push = practice(push_case, random);
+  push.start_T_object = outcomeOf(push_case.id, number);
+  return push;
+}
+
+// Everything that learning, adapting and looking after a base write.
 [[noreturn]] void learnForEver(const fs::path& file, int acknowledgements) {
   CaseBase base(file, Access::kCreate);
   const auto say = [&](const Acknowledgement& stored) {
@@ -34,13 +44,22 @@ Pose2 outcomeOf(std::int64_t case_id, std::int64_t number) {
     }
   };
   while (true) {
-    Case push_case = recordedCase(5, 60);
-    const std::int64_t id = base.add(push_case);
+    const std::int64_t id = base.add(recordedCase(5, 60));
     say({id, 1});
+    const Case push_case = base.get(id);
     for (std::int64_t number = 2; number <= 6; ++number) {
-      base.observe(id, outcomeOf(id, number), {});
+      if (number == 4) {
+        base.observe(id, pushOf(push_case, 9), {});
+        base.undo(id);
+      }
+      if (number == 5) {
+        base.adapt(id, pushOf(push_case, number), 0.3, {}, {});
+      } else {
+        base.observe(id, pushOf(push_case, number), {});
+      }
       say({id, number});
     }
+    base.remove(base.copy(id, {3.0, ""}));
   }
 }
 
@@ -100,18 +119,22 @@ void expectStored(const fs::path& file, const std::vector<Acknowledgement>& stor
     }
   }
   for (const Case& push_case : base.cases()) {
-    // Statistics and observations change together or not at all.
+    // Statistics, tube and observations change together or not at all.
     EXPECT_EQ(push_case.observation_count,
               static_cast<int>(base.observations(push_case.id).size()));
+    ASSERT_EQ(push_case.tube.size(), push_case.steps.size());
+    expectSamePose(push_case.tube.back().mean, push_case.start_outcome.mean);
   }
 }
 
 TEST(CaseBaseCrash, losesNothingThatWasAcknowledged) {
-  constexpr int kKills = 24;
+  // More by hand: CASEPUSH_KILLS=200.
+  const char* wanted = std::getenv("CASEPUSH_KILLS");
+  const int kills = wanted == nullptr ? 24 : std::atoi(wanted);
   TemporaryFolder folder;
   Random random(1);
   std::vector<Acknowledgement> stored;
-  for (int kill = 0; kill < kKills; ++kill) {
+  for (int kill = 0; kill < kills; ++kill) {
     const fs::path file = folder / "cases.db";
     const std::vector<Acknowledgement> more = learnAndKill(file, static_cast<int>(random.below(20)),
                                                            static_cast<int>(random.below(4000)));
@@ -122,14 +145,16 @@ TEST(CaseBaseCrash, losesNothingThatWasAcknowledged) {
     expectStored(file, stored);
   }
   EXPECT_GT(stored.size(), 100u) << "hardly anything was tested";
+  RecordProperty("kills", kills);
+  RecordProperty("acknowledged_and_found", static_cast<int>(stored.size()));
 }
 
 TEST(CaseBaseCrash, beingKilledWhileCreatingLeavesSomethingThatOpens) {
-  constexpr int kKills = 20;
+  constexpr int kKills = 8;
   TemporaryFolder folder;
   for (int kill = 0; kill < kKills; ++kill) {
     const fs::path file = folder / ("cases" + std::to_string(kill) + ".db");
-    const std::vector<Acknowledgement> stored = learnAndKill(file, 0, 500 * kill);
+    const std::vector<Acknowledgement> stored = learnAndKill(file, 0, 1000 * kill);
     ASSERT_NO_THROW(CaseBase(file, Access::kCreate));
     expectStored(file, stored);
   }

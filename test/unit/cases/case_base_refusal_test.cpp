@@ -128,7 +128,7 @@ TEST_F(CaseBaseRefusal, databaseOfAnotherProgram) {
 TEST_F(CaseBaseRefusal, newerSchema) {
   fillBase();
   runSql(file_, "PRAGMA user_version = 9;");
-  expectUntouchedRefusal(file_, "has schema version 9, this program knows up to 1");
+  expectUntouchedRefusal(file_, "has schema version 9, this program knows up to 2");
 }
 
 TEST_F(CaseBaseRefusal, truncatedFile) {
@@ -163,7 +163,7 @@ TEST_F(CaseBaseRefusal, senselessRowsAreNamed) {
   runSql(file_, "UPDATE cases SET cov_y_y = -1 WHERE id = 3;");
   expectRefusal(inputErrorOf([&] { CaseBase(file_, Access::kReadOnly).cases(); }), file_,
                 "case 3: start_outcome.covariance");
-  runSql(file_, "UPDATE cases SET steps = x'00' WHERE id = 2;");
+  runSql(file_, "UPDATE steps SET steps = x'00' WHERE case_id = 2;");
   expectRefusal(inputErrorOf([&] { CaseBase(file_, Access::kReadOnly).get(2); }), file_,
                 "case 2: steps: is damaged");
   runSql(file_, "UPDATE cases SET origin = 'dreamt' WHERE id = 1;");

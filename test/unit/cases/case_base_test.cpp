@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "case_fixtures.h"
+#include "casepush/common/paper_similarity.h"
 
 namespace casepush {
 namespace {
@@ -82,11 +83,12 @@ TEST_F(CaseBaseTest, observesAndAdaptsAsTheStatisticsDo) {
   for (int i = 0; i < 30; ++i) {
     const Pose2 outcome = first.start_outcome.mean * randomPose(random, 0.05, 0.1);
     const bool is_adaptation = i % 3 == 2;
-    const double weight = 1.0 + 0.05 * i;
-    const Case updated =
-        is_adaptation ? base.adapt(id, outcome, weight, floor) : base.observe(id, outcome, floor);
-    expected = is_adaptation ? adapt(expected, outcome, weight, floor)
-                             : addObservation(expected, outcome, floor);
+    const double p_value = 0.03 * i;
+    const Case updated = is_adaptation ? base.adapt(id, restingAt(outcome), p_value, {}, floor)
+                                       : base.observe(id, restingAt(outcome), floor);
+    const double weight =
+        is_adaptation ? adaptationWeight(expected, outcome, p_value, {}) : expected.effective_count;
+    expected = adapt(expected, outcome, weight, floor);
     expectSamePose(updated.start_outcome.mean, expected.start_outcome.mean);
     EXPECT_EQ(updated.start_outcome.covariance, expected.start_outcome.covariance);
     EXPECT_EQ(updated.effective_count, expected.effective_count);
@@ -101,9 +103,9 @@ TEST_F(CaseBaseTest, historyExplainsTheStatistics) {
   const std::int64_t id = base.add(recordedCase(4));
   base.add(recordedCase(5));
   for (int i = 0; i < 10; ++i) {
-    base.observe(id, randomPose(random), {});
+    base.observe(id, restingAt(randomPose(random)), {});
   }
-  base.adapt(id, randomPose(random), 2.5, {});
+  base.adapt(id, restingAt(randomPose(random)), 0.125, {}, {});
   const std::vector<ObservedOutcome> history = base.history(id);
   ASSERT_EQ(history.size(), 12u);
   EXPECT_EQ(history[0].source, OutcomeSource::kExplored);
@@ -125,10 +127,13 @@ TEST_F(CaseBaseTest, historyExplainsTheStatistics) {
 TEST_F(CaseBaseTest, weightOfThePastIsBounded) {
   CaseBase base(file_, Access::kCreate);
   const std::int64_t id = base.add(recordedCase(6));
-  EXPECT_EQ(base.adapt(id, {0.1, 0.0, 0.0}, 17.0, {}).effective_count, 2.0);
-  for (const double weight : {0.5, -1.0, std::nan("")}) {
-    expectRefusal(inputErrorOf([&] { base.adapt(id, {}, weight, {}); }), file_,
-                  "weight of the past");
+  EXPECT_EQ(base.adapt(id, restingAt({0.1, 0.0, 0.0}), 0.85, {}, {}).effective_count, 2.0);
+  AdaptationOptions paper;
+  paper.weight = PastWeight::kPaper;
+  EXPECT_NEAR(base.adapt(id, restingAt({5.0, 0.0, 0.0}), 0.85, paper, {}).effective_count,
+              1.0 + 20.0 * paperSimilarity({0.05, 0.0, 0.0}, {5.0, 0.0, 0.0}, 21.2), 30.0);
+  for (const double p_value : {1.5, -1.0, std::nan("")}) {
+    expectRefusal(inputErrorOf([&] { base.adapt(id, {}, p_value, {}, {}); }), file_, "p-value is");
   }
 }
 
@@ -147,7 +152,7 @@ TEST_F(CaseBaseTest, removesACaseWithItsObservationsAndNeverReusesItsId) {
 TEST_F(CaseBaseTest, isAWriteAheadLoggedFileThatKnowsWhatItIs) {
   CaseBase base(file_, Access::kCreate);
   EXPECT_EQ(firstText("PRAGMA journal_mode"), "wal");
-  EXPECT_EQ(firstText("PRAGMA user_version"), "1");
+  EXPECT_EQ(firstText("PRAGMA user_version"), "2");
   EXPECT_EQ(firstText("PRAGMA application_id"), std::to_string(0x43507368));
 }
 
@@ -156,7 +161,7 @@ TEST_F(CaseBaseTest, unknownCaseIsNamed) {
   const std::string reason = "case 42: does not exist";
   expectRefusal(inputErrorOf([&] { base.get(42); }), file_, reason);
   expectRefusal(inputErrorOf([&] { base.observe(42, {}, {}); }), file_, reason);
-  expectRefusal(inputErrorOf([&] { base.adapt(42, {}, 1.0, {}); }), file_, reason);
+  expectRefusal(inputErrorOf([&] { base.adapt(42, {}, 1.0, {}, {}); }), file_, reason);
   expectRefusal(inputErrorOf([&] { base.remove(42); }), file_, reason);
   expectRefusal(inputErrorOf([&] { base.observations(42); }), file_, reason);
 }
@@ -173,11 +178,11 @@ TEST_F(CaseBaseTest, badValuesAreRefusedAndNothingIsStored) {
   const std::int64_t id = base.add(recordedCase(11));
   const Case before = base.get(id);
   expectRefusal(inputErrorOf([&] {
-                  base.observe(id, {0.0, std::nan(""), 0.0}, {});
+                  base.observe(id, restingAt({0.0, std::nan(""), 0.0}), {});
                 }),
                 file_, "case 1: observed outcome is not finite");
   expectRefusal(inputErrorOf([&] {
-                  base.observe(id, {150.0, 0.0, 0.0}, {});
+                  base.observe(id, restingAt({150.0, 0.0, 0.0}), {});
                 }),
                 file_, "case 1: observed outcome is too far away; x and y must be within 100 m");
   EXPECT_NE(inputErrorOf([&] { base.observe(id, {}, {-1.0, 1.0}); }), "");
@@ -249,7 +254,7 @@ TEST_F(CaseBaseTest, theSameCallsGiveTheSameContent) {
     const std::filesystem::path file = folder_ / (&dump == dumps ? "a.db" : "b.db");
     CaseBase base(file, Access::kCreate);
     const std::int64_t id = base.add(recordedCase(18));
-    base.observe(id, {0.1, 0.2, 0.3}, {});
+    base.observe(id, restingAt({0.1, 0.2, 0.3}), {});
     base.exportYaml(folder_ / "dump.yaml");
     dump = readFile(folder_ / "dump.yaml");
   }

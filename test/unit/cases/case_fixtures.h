@@ -2,40 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
 #include "casepush/common/random.h"
+#include "common/temporary_folder.h"
 
 namespace casepush {
-
-/// A fresh folder, gone with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "casepush_test_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("no temporary folder");
-    }
-    path_ = name;
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline Pose2 randomPose(Random& random, double position_sigma_m = 0.3, double yaw_sigma_rad = 0.4) {
   const double x = random.normal(position_sigma_m);
@@ -65,6 +44,13 @@ inline Case recordedCase(std::uint64_t seed, int steps = 30, const std::string& 
   return push_case;
 }
 
+/// A push of which only the resting pose is known.
+inline ObservedPush restingAt(const Pose2& start_T_object) {
+  ObservedPush push;
+  push.start_T_object = start_T_object;
+  return push;
+}
+
 inline void expectSamePose(const Pose2& a, const Pose2& b) {
   EXPECT_EQ(a.x(), b.x());
   EXPECT_EQ(a.y(), b.y());
@@ -82,6 +68,7 @@ inline void expectSameCase(const Case& a, const Case& b) {
   EXPECT_EQ(a.start_outcome.covariance, b.start_outcome.covariance);
   EXPECT_EQ(a.effective_count, b.effective_count);
   EXPECT_EQ(a.observation_count, b.observation_count);
+  EXPECT_EQ(a.context, b.context);
   ASSERT_EQ(a.steps.size(), b.steps.size());
   for (std::size_t i = 0; i < a.steps.size(); ++i) {
     expectSamePose(a.steps[i].object_T_robot, b.steps[i].object_T_robot);
@@ -90,6 +77,49 @@ inline void expectSameCase(const Case& a, const Case& b) {
     EXPECT_EQ(a.steps[i].action.vy_mps, b.steps[i].action.vy_mps);
     EXPECT_EQ(a.steps[i].action.wz_rps, b.steps[i].action.wz_rps);
   }
+}
+
+inline void expectSameTube(const Case& a, const Case& b) {
+  ASSERT_EQ(a.tube.size(), b.tube.size());
+  for (std::size_t i = 0; i < a.tube.size(); ++i) {
+    expectSamePose(a.tube[i].mean, b.tube[i].mean);
+    EXPECT_EQ(a.tube[i].covariance, b.tube[i].covariance);
+  }
+}
+
+inline void expectSameHistory(const std::vector<ObservedOutcome>& a,
+                              const std::vector<ObservedOutcome>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    expectSamePose(a[i].start_T_object, b[i].start_T_object);
+    EXPECT_EQ(a[i].source, b[i].source);
+    EXPECT_EQ(a[i].past_weight, b[i].past_weight);
+    EXPECT_EQ(a[i].noise.position_m, b[i].noise.position_m);
+    EXPECT_EQ(a[i].noise.yaw_rad, b[i].noise.yaw_rad);
+    EXPECT_EQ(a[i].stamp_s, b[i].stamp_s);
+    EXPECT_EQ(a[i].context, b[i].context);
+    ASSERT_EQ(a[i].path.size(), b[i].path.size());
+    for (std::size_t k = 0; k < a[i].path.size(); ++k) {
+      expectSamePose(a[i].path[k], b[i].path[k]);
+    }
+  }
+}
+
+/// The push of a case done again: its trajectory with noise, at another speed.
+inline ObservedPush practice(const Case& push_case, Random& random, double sigma = 0.02) {
+  ObservedPush push;
+  const Pose2 drift = randomPose(random, sigma, sigma);
+  const double share = random.uniform(0.7, 1.3);
+  const auto count = static_cast<int>(share * static_cast<double>(push_case.steps.size()));
+  for (int i = 0; i < std::max(2, count); ++i) {
+    const auto at = std::min(push_case.steps.size() - 1, static_cast<std::size_t>(i / share));
+    push.steps.push_back(push_case.steps[at]);
+    push.steps.back().start_T_object = push_case.steps[at].start_T_object * drift;
+  }
+  push.push_steps = 1;
+  push.start_T_object = push.steps.back().start_T_object;
+  push.stamp_s = random.uniform(0.0, 1e9);
+  return push;
 }
 
 inline std::string readFile(const std::filesystem::path& file) {

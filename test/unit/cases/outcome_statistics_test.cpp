@@ -239,7 +239,9 @@ TEST(Adapt, equalsAddObservationAtFullWeight) {
 // The robot's loop: test, weigh, adapt.
 OutcomeStatistics testAndAdapt(const OutcomeStatistics& past, const Pose2& x, double scale_k) {
   const PredictionTest test = testPrediction(past, x, 0.01);
-  const double weight = adaptationWeight(test.p_value, scale_k, past.effective_count);
+  AdaptationOptions options;
+  options.scale_k = scale_k;
+  const double weight = adaptationWeight(past, x, test.p_value, options);
   return adapt(past, x, weight, {});
 }
 
@@ -288,10 +290,39 @@ TEST(Adapt, hardlyMovesOnConsistentObservations) {
 }
 
 TEST(AdaptationWeight, isBounded) {
-  EXPECT_EQ(adaptationWeight(0.0, 20.0, 15.0), 1.0);
-  EXPECT_EQ(adaptationWeight(1.0, 20.0, 15.0), 15.0);
-  EXPECT_EQ(adaptationWeight(0.25, 20.0, 15.0), 5.0);
-  EXPECT_EQ(adaptationWeight(1.0, 20.0, 1.0), 1.0);
+  OutcomeStatistics past;
+  const auto weight = [&](double p_value, double count) {
+    past.effective_count = count;
+    return adaptationWeight(past, {}, p_value, {});
+  };
+  EXPECT_EQ(weight(0.0, 15.0), 1.0);
+  EXPECT_EQ(weight(1.0, 15.0), 15.0);
+  EXPECT_EQ(weight(0.25, 15.0), 5.0);
+  EXPECT_EQ(weight(1.0, 1.0), 1.0);
+  EXPECT_EQ(weight(0.0, 0.1), 0.1) << "a past that is worth less is not made worth more";
+}
+
+TEST(AdaptationWeight, ofThePaperHardlyEverLetsThePastGo) {
+  AdaptationOptions paper;
+  paper.weight = pastWeightFromString("paper", "");
+  OutcomeStatistics past;
+  past.effective_count = 20.0;
+  const auto weight = [&](const Pose2& x) { return adaptationWeight(past, x, 0.0, paper); };
+  EXPECT_NEAR(weight({1.0, 0.0, 0.0}), 20.0 * 21.2, 1e-9);
+  EXPECT_NEAR(weight({2.0, 0.0, M_PI / 3.0}), 0.25 * 20.0 * 21.2, 1e-9);
+  EXPECT_EQ(weight({2.0, 0.0, 2.0}), 0.0)
+      << "the sign of the printed formula flips past 90 degrees";
+  const Pose2 changed(0.4, -0.1, 0.5);
+  EXPECT_GT(distance(adapt(past, changed, weight(changed), {}).start_outcome.mean, changed), 0.4);
+}
+
+TEST(AdaptationOptions, areChecked) {
+  EXPECT_EQ(inputErrorOf([] { pastWeightFromString("none", "--weight"); }),
+            "--weight: is 'none'; must be bounded or paper");
+  AdaptationOptions options;
+  options.scale_k = 0.0;
+  EXPECT_NE(inputErrorOf([&] { options.validate(); }).find("adaptation: scale_k: is 0"),
+            std::string::npos);
 }
 
 TEST(OutcomeStatistics, refusesWhatIsNotFinite) {

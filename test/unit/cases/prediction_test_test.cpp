@@ -67,6 +67,78 @@ TEST(TestPrediction, theFloorOnlyMakesItMoreCautious) {
   EXPECT_NEAR(realistic.hotelling, kAlpha, 0.008);
 }
 
+class WhileAdapting : public ::testing::Test {
+ protected:
+  Pose2 outcome() { return Pose2(0.6, 0.1, 0.3) * randomPose(random_, 0.05, 0.1); }
+
+  OutcomeStatistics practised() {
+    OutcomeStatistics statistics;
+    for (int i = 0; i < 20; ++i) {
+      statistics = addObservation(statistics, outcome(), {});
+    }
+    return statistics;
+  }
+
+  // Tests a push, then adapts by it. Returns whether it was rejected.
+  static bool push(OutcomeStatistics& statistics, const Pose2& x, PastWeight weight) {
+    AdaptationOptions options;
+    options.weight = weight;
+    const PredictionTest test = testPrediction(statistics, x, kAlpha);
+    statistics = adapt(statistics, x, adaptationWeight(statistics, x, test.p_value, options), {});
+    return test.rejected;
+  }
+
+  double falseAlarmRate(PastWeight weight) {
+    constexpr int kCases = 200;
+    constexpr int kPushes = 100;
+    int rejected = 0;
+    for (int i = 0; i < kCases; ++i) {
+      OutcomeStatistics statistics = practised();
+      for (int k = 0; k < kPushes; ++k) {
+        rejected += push(statistics, outcome(), weight) ? 1 : 0;
+      }
+    }
+    return static_cast<double>(rejected) / kCases / kPushes;
+  }
+
+  double rejectionsAfterAChange(PastWeight weight) {
+    constexpr int kCases = 200;
+    constexpr int kMost = 50;
+    int rejected = 0;
+    for (int i = 0; i < kCases; ++i) {
+      OutcomeStatistics statistics = practised();
+      for (int k = 0; k < kMost && push(statistics, outcome() * Pose2(0.3, 0.2, 0.4), weight);
+           ++k) {
+        ++rejected;
+      }
+    }
+    return static_cast<double>(rejected) / kCases;
+  }
+
+  Random random_{11};
+};
+
+// Counts between 1 and 20 make the test cautious. With the paper's literal weight the count runs
+// away, and what is tested is the plug-in.
+TEST_F(WhileAdapting, keepsAlphaWithTheBoundedWeightOnly) {
+  const double bounded = falseAlarmRate(PastWeight::kBounded);
+  const double paper = falseAlarmRate(PastWeight::kPaper);
+  RecordProperty("bounded", std::to_string(bounded));
+  RecordProperty("paper", std::to_string(paper));
+  EXPECT_LT(bounded, kAlpha);
+  EXPECT_GT(paper, 2.0 * kAlpha);
+}
+
+// Paper, section 6.3: "after 2 iterations on average".
+TEST_F(WhileAdapting, explainsNewDynamicsSoonWithTheBoundedWeightOnly) {
+  const double bounded = rejectionsAfterAChange(PastWeight::kBounded);
+  const double paper = rejectionsAfterAChange(PastWeight::kPaper);
+  RecordProperty("bounded", std::to_string(bounded));
+  RecordProperty("paper", std::to_string(paper));
+  EXPECT_LT(bounded, 2.0);
+  EXPECT_GT(paper, 20.0);
+}
+
 TEST(TestPrediction, fallbackRaisesAtMostAlphaFalseAlarms) {
   for (const int n : {1, 2, 3, 4}) {
     EXPECT_LT(falseAlarmRates(n, 4000, 0.05, 0.1, {}, 9).hotelling, kAlpha) << n;

@@ -47,6 +47,21 @@ TEST(ValidateCase, acceptsAGoodOne) {
   EXPECT_EQ(errorAfter([](Case*) {}), "");
 }
 
+TEST(ValidateCase, namesWhatIsWrongWithTubeAndContext) {
+  EXPECT_EQ(errorAfter([](Case* c) { c->tube.resize(2); }),
+            "case 7: tube: holds 2 poses; must hold one for each of the 3 steps, or none");
+  EXPECT_EQ(
+      errorAfter([](Case* c) {
+        c->tube.assign(3, c->start_outcome);
+        c->tube[1].covariance(0, 0) = -1.0;
+      }),
+      "case 7: tube[1].covariance: must be finite, symmetric and without negative eigenvalues");
+  EXPECT_EQ(errorAfter([](Case* c) { c->context.load_kg = kNan; }),
+            "case 7: load_kg: is nan; must be in [0, 10000] kg");
+  EXPECT_EQ(errorAfter([](Case* c) { c->context.floor = "a\nb"; }),
+            "case 7: floor: holds a control character; must be a text on one line");
+}
+
 TEST(ValidateCase, namesWhatIsWrong) {
   EXPECT_EQ(errorAfter([](Case* c) { c->object.clear(); }),
             "case 7: object: is empty; must name an object model");

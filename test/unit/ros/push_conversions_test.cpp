@@ -27,6 +27,10 @@ Case someCase() {
   push_case.start_outcome.covariance = Eigen::Vector3d(0.01, 0.02, 0.03).asDiagonal();
   push_case.effective_count = 7.5;
   push_case.observation_count = 12;
+  push_case.source_id = 17;
+  push_case.context = {2.5, "vinyl"};
+  push_case.tube.assign(3, push_case.start_outcome);
+  push_case.tube[1].mean = Pose2(0.1, 0.01, 0.04);
   return push_case;
 }
 
@@ -58,6 +62,20 @@ TEST(PushConversions, casesComeBack) {
   EXPECT_TRUE(back.start_outcome.covariance.isApprox(push_case.start_outcome.covariance));
   EXPECT_DOUBLE_EQ(back.effective_count, 7.5);
   EXPECT_EQ(back.observation_count, 12);
+  EXPECT_EQ(back.source_id, 17);
+  EXPECT_EQ(back.context, push_case.context);
+  ASSERT_EQ(back.tube.size(), 3U);
+  EXPECT_DOUBLE_EQ(back.tube[1].mean.yaw(), 0.04);
+  EXPECT_TRUE(back.tube[2].covariance.isApprox(push_case.tube[2].covariance));
+}
+
+TEST(PushConversions, knowsWhatIsUnknownOfACase) {
+  Case push_case = someCase();
+  push_case.context = {};
+  push_case.tube.clear();
+  const Case back = fromMessage(toMessage(push_case));
+  EXPECT_FALSE(back.context.load_kg.has_value());
+  EXPECT_TRUE(back.tube.empty());
 }
 
 TEST(PushConversions, refusesBadCases) {
@@ -69,6 +87,9 @@ TEST(PushConversions, refusesBadCases) {
   EXPECT_THROW(fromMessage(message), InputError);
   message = toMessage(std::vector<Case>{someCase()}, 1.0);
   message.cases[0].outcome.covariance[0] = -1.0;
+  EXPECT_THROW(fromMessage(message), InputError);
+  message = toMessage(std::vector<Case>{someCase()}, 1.0);
+  message.cases[0].tube.pop_back();
   EXPECT_THROW(fromMessage(message), InputError);
   message = toMessage(std::vector<Case>{someCase()}, 1.0);
   message.cases[0].steps.clear();

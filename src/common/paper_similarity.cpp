@@ -1,4 +1,4 @@
-#include "casepush/planning/similarity.h"
+#include "casepush/common/paper_similarity.h"
 
 #include <algorithm>
 #include <cmath>
