@@ -21,6 +21,7 @@ inline Simulator makeSimulator(const WorldModel& world, std::uint64_t seed = 1,
   options.seed = seed;
   RobotModel robot = test::makeRobot();
   robot.cameras.push_back(test::makeCamera());
+  robot.odometry.switches.noise = false;  // Tests ask it for the robot's velocity.
   return Simulator(world, robot, {{"cart", test::makeCart()}, {"crate", test::makeCrate()}},
                    options);
 }
