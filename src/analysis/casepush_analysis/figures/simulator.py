@@ -170,4 +170,4 @@ def _fidelity(axes, bench):
     ticks = sorted({round(1.0 / row['step_s']) for row in bench['fidelity']})
     axes.set_xticks(ticks, [str(tick) for tick in ticks])
     handles = [h for a in (axes, angle) for h in a.get_legend_handles_labels()[0]]
-    axes.legend(handles=handles, fontsize=7.5)
+    axes.legend(handles=handles, fontsize=7.5, loc='lower left')
