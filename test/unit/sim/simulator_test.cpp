@@ -60,9 +60,7 @@ TEST(Simulator, drawsSwivelsFromTheSeedAndAnewAtEachSetPose) {
 }
 
 TEST_P(SimulatorModels, robotReachesTheCommandedVelocityAndStopsWithinAFifthOfASecond) {
-  SimulatorOptions exact = options();
-  exact.sensor_noise = false;
-  Simulator simulator = makeSimulator(test::makeWorld(), 1, exact);
+  Simulator simulator = makeSimulator(test::makeWorld(), 1, options());
   drive(simulator, {0.4, 0.3, 0.0}, 0.5);
   const Twist2 moving = simulator.odometry().robot_twist;
   EXPECT_NEAR(moving.vx_mps, 0.4, 0.01);
@@ -151,7 +149,7 @@ TEST_P(SimulatorModels, bodiesMayTradePlaces) {
   EXPECT_EQ(simulator.time(), time_s);
   EXPECT_NEAR(simulator.trueObjectPose("cart_1").x(), 2.0, 1e-9);
   EXPECT_NEAR(simulator.trueObjectPose("cart_2").yaw(), 0.3, 1e-9);
-  EXPECT_NEAR(simulator.odometry().robot_twist.vx_mps, 0.2, 0.03);  // Not moved: drives on.
+  EXPECT_NEAR(simulator.odometry().robot_twist.vx_mps, 0.2, 0.01);  // Not moved: drives on.
 }
 
 TEST_P(SimulatorModels, refusesOverlappingStartPosesAndNamesBoth) {
