@@ -157,7 +157,7 @@ void PlanarEngine::readContacts(ContactLog& contacts) {
     point.m_appliedImpulseLateral1 = contact.across_impulse;
     if (contact.normal_impulse <= 0.0) continue;
     contacts.add({&tagOf(touch.a), point.m_index0}, {&tagOf(touch.b), point.m_index1},
-                 contact.normal_impulse, touch.map_point);
+                 contact.normal_impulse, touch.middle());
     const Vector3d normal = toEigen(point.m_normalWorldOnB);
     const Vector3d left = Vector3d(-normal.y(), normal.x(), 0.0).normalized();
     const Vector3d impulse = contact.normal_impulse * normal + contact.across_impulse * left;
