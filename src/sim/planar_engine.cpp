@@ -156,10 +156,8 @@ void PlanarEngine::readContacts(ContactLog& contacts) {
     point.m_appliedImpulse = contact.normal_impulse;
     point.m_appliedImpulseLateral1 = contact.across_impulse;
     if (contact.normal_impulse <= 0.0) continue;
-    const Vector3d place(touch.map_point.x(), touch.map_point.y(),
-                         0.5 * (touch.low_m + touch.high_m));
     contacts.add({&tagOf(touch.a), point.m_index0}, {&tagOf(touch.b), point.m_index1},
-                 contact.normal_impulse, place);
+                 contact.normal_impulse, touch.middle());
     const Vector3d normal = toEigen(point.m_normalWorldOnB);
     const Vector3d left = Vector3d(-normal.y(), normal.x(), 0.0).normalized();
     const Vector3d impulse = contact.normal_impulse * normal + contact.across_impulse * left;

@@ -37,6 +37,10 @@ class PlanarEngine final : public Engine {
     Eigen::Vector2d map_point;
     double low_m;  // Of points one above the other, that are the same in the plane.
     double high_m;
+
+    Eigen::Vector3d middle() const {
+      return {map_point.x(), map_point.y(), 0.5 * (low_m + high_m)};
+    }
   };
 
   void findTouches();

@@ -210,5 +210,30 @@ TEST(Conversions, scansBecomeOrganisedClouds) {
   EXPECT_EQ(points[2], Eigen::Vector3f(7, 8, 9));
 }
 
+TEST(Conversions, loadsKeepWhatIsGivenAndLeaveOpenWhatIsZero) {
+  const Load load{12.0, {0.1, -0.2}, 0.8, {0.4, 0.5, 0.6}};
+  const ObjectLoad message = toMessage("cart_1", load);
+  EXPECT_EQ(message.id, "cart_1");
+  const Load back = fromMessage(message);
+  EXPECT_EQ(back.mass_kg, load.mass_kg);
+  EXPECT_EQ(back.object_p_centre_m, load.object_p_centre_m);
+  EXPECT_EQ(back.height_m, load.height_m);
+  EXPECT_EQ(back.size_m, load.size_m);
+  const Load open = fromMessage(ObjectLoad());
+  EXPECT_FALSE(open.height_m);
+  EXPECT_EQ(open.size_m, Load().size_m);
+}
+
+TEST(Conversions, contactsSayWhere) {
+  ContactReport report{"cart_1", "body", "robot", "base", 2.5, Eigen::Vector3d(1.0, 2.0, 0.3)};
+  const BodyContactArray message = toMessage({report}, 4.0);
+  ASSERT_EQ(message.contacts.size(), 1u);
+  EXPECT_EQ(message.header.frame_id, "map");
+  EXPECT_EQ(message.contacts[0].part_b, "base");
+  EXPECT_EQ(message.contacts[0].impulse, 2.5);
+  EXPECT_EQ(message.contacts[0].point.y, 2.0);
+  EXPECT_EQ(message.contacts[0].point.z, 0.3);
+}
+
 }  // namespace
 }  // namespace casepush

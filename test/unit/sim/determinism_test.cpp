@@ -54,6 +54,7 @@ Twist2 chase(const Simulator& simulator) {
 /// @param batch  Steps at a time, where no command comes in between.
 std::uint64_t wander(Simulator& simulator, int seconds, int batch) {
   std::uint64_t hash = kHashStart;
+  simulator.setScanning(true);
   const std::int64_t end = std::int64_t{kStepsPerSecond} * seconds;
   while (simulator.stepCount() < end) {
     const std::int64_t step = simulator.stepCount();

@@ -22,6 +22,7 @@ inline Simulator makeSimulator(const WorldModel& world, std::uint64_t seed = 1,
   RobotModel robot = test::makeRobot();
   robot.cameras.push_back(test::makeCamera());
   robot.odometry.switches.noise = false;  // Tests ask it for the robot's velocity.
+  robot.range_sensors.push_back(test::makeScanner());
   return Simulator(world, robot, {{"cart", test::makeCart()}, {"crate", test::makeCrate()}},
                    options);
 }
@@ -48,7 +49,8 @@ void mixAll(std::uint64_t& hash, const Matrix& matrix) {
 
 constexpr std::uint64_t kHashStart = 0xcbf29ce484222325ULL;
 
-// FNV over everything that a caller can see, down to the last bit. Takes images and contacts.
+// FNV over everything that a caller can see, down to the last bit. Takes images, scans and
+// contacts.
 inline std::uint64_t hashOf(Simulator& simulator, std::uint64_t hash = kHashStart) {
   const OdometryReading odometry = simulator.odometry();
   for (const Pose2& pose :
@@ -70,6 +72,10 @@ inline std::uint64_t hashOf(Simulator& simulator, std::uint64_t hash = kHashStar
       mixAll(hash, tag.camera_T_tag.matrix());
       mixAll(hash, tag.covariance);
     }
+  }
+  for (const RangeScan& scan : simulator.takeScans()) {
+    mix(hash, scan.stamp_s);
+    for (const Eigen::Vector3f& point : scan.points) mixAll(hash, point);
   }
   for (const ContactReport& contact : simulator.takeContacts()) {
     mix(hash, contact.impulse_ns);

@@ -158,6 +158,16 @@ inline CameraModel makeCamera() {
   return camera;
 }
 
+/// Sees all around from the mast, with noise and missing returns.
+inline RangeSensorModel makeScanner() {
+  RangeSensorModel scanner;
+  scanner.name = "scanner";
+  scanner.base_T_sensor = at(0.0, 0.0, 0.55);
+  scanner.beams = 60;
+  scanner.dropout = 0.05;
+  return scanner;
+}
+
 inline StaticBox makeBox(const std::string& name, const Eigen::Vector3d& size, double x, double y) {
   return {name, Box{size}, at(x, y, 0.5 * size.z())};
 }
