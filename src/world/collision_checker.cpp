@@ -6,84 +6,13 @@
 #include <sstream>
 
 #include "casepush/common/check.h"
+#include "checker_data.h"
 #include "footprint.h"
-#include "map_columns.h"
+#include "placed_footprint.h"
 #include "slab.h"
 
 namespace casepush {
 namespace {
-
-/// An obstacle's parts, ready for pair tests.
-struct Obstacle {
-  std::vector<ConvexPart> parts;
-  double reach_m = 0.0;
-};
-
-/// Solids around, shared by copies of a checker.
-struct Surroundings {
-  std::vector<PlacedSolid> placed;
-  std::vector<Obstacle> prepared;
-  CollisionChecker::Columns columns;  ///< Of map and solids.
-};
-
-Eigen::Vector2d columnCorner(const CollisionChecker::Columns& columns, std::size_t column) {
-  const Eigen::Vector2d cell(static_cast<double>(column % columns.width),
-                             static_cast<double>(column / columns.width));
-  return columns.origin_m + columns.resolution_m * cell;
-}
-
-/// A footprint at a pose. Cells are compared in the solid's own frame, where its shadows are ready.
-class PlacedFootprint {
- public:
-  PlacedFootprint(const Footprint& footprint, const Pose2& map_T_solid)
-      : footprint_(footprint), map_T_solid_(map_T_solid), solid_T_map_(map_T_solid.inverse()) {}
-
-  /// How deep the grown solid reaches into the occupied cells of a column of the map; 0 if not.
-  double depthIn(const MapColumns& map, std::size_t column) const {
-    const double resolution_m = map.columns.resolution_m;
-    const Eigen::Vector2d corner = columnCorner(map.columns, column);
-    const Shadow square =
-        transformed(solid_T_map_, rectangle(corner, corner.array() + resolution_m));
-    const Eigen::Vector2d centre = (square.points[0] + square.points[2]) / 2.0;
-    double depth = 0.0;
-    for (const ConvexPart& part : footprint_.parts()) {
-      const double discs_m = part.disc().radius_m + footprint_.margin() + resolution_m * M_SQRT1_2;
-      if ((part.disc().centre_m - centre).squaredNorm() > discs_m * discs_m) continue;
-      for (std::uint32_t run = map.first_run[column]; run < map.first_run[column + 1]; ++run) {
-        depth = std::max(depth, depthIn(square, part, map.runs[run].low * resolution_m,
-                                        map.runs[run].high * resolution_m));
-      }
-    }
-    return depth > kContactTolerance_m ? depth : 0.0;
-  }
-
-  /// How far the grown solid reaches out of the rectangle; 0 if not.
-  double depthOutside(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m) const {
-    double depth = 0.0;
-    for (const ConvexPart& part : footprint_.parts()) {
-      Eigen::Vector2d low;
-      Eigen::Vector2d high;
-      shadowBounds(transformed(map_T_solid_, part.shadow()), &low, &high);
-      const double beyond = std::max((min_m - low).maxCoeff(), (high - max_m).maxCoeff());
-      depth = std::max(depth, beyond + footprint_.margin());
-    }
-    return depth > kContactTolerance_m ? depth : 0.0;
-  }
-
- private:
-  double depthIn(const Shadow& square, const ConvexPart& part, double low_m, double high_m) const {
-    if (!part.touches(low_m, high_m)) return 0.0;
-    const double margin_m = footprint_.margin();
-    if (!closerThan(part.shadow(), square, margin_m - kContactTolerance_m)) return 0.0;
-    if (part.isPrism()) return margin_m - separation(part.shadow(), square);
-    const Shadow between = part.shadow(low_m, high_m);
-    return between.empty() ? 0.0 : margin_m - separation(between, square);
-  }
-
-  const Footprint& footprint_;
-  Pose2 map_T_solid_;
-  Pose2 solid_T_map_;
-};
 
 /// Calls `visit(column index)` for the columns that the mask test hits until it returns true.
 template <typename Visit>
@@ -113,41 +42,7 @@ bool visitHits(const CollisionChecker::Columns& columns, const Footprint& footpr
   return false;
 }
 
-/// Deepest overlap of the footprint with a part of the obstacle; `part` names it.
-double depthInObstacle(const Footprint& footprint, const Pose2& map_T_solid,
-                       const Obstacle& obstacle, const Pose2& map_T_obstacle, std::string* part) {
-  double deepest = 0.0;
-  for (const ConvexPart& theirs : obstacle.parts) {
-    for (const ConvexPart& ours : footprint.parts()) {
-      const double depth =
-          overlapDepth(ours, map_T_solid, theirs, map_T_obstacle, footprint.margin());
-      if (depth <= deepest) continue;
-      deepest = depth;
-      if (part == nullptr) return deepest;
-      *part = theirs.name();
-    }
-  }
-  return deepest;
-}
-
 }  // namespace
-
-struct CollisionChecker::Data {
-  std::shared_ptr<const MapColumns> map;
-  std::shared_ptr<const Surroundings> around;
-
-  bool mayReachOut(const Footprint& footprint, const Pose2& pose) const {
-    const Eigen::Array2d p = pose.position().array();
-    return (p - footprint.reach() < map->min_m.array()).any() ||
-           (p + footprint.reach() > map->max_m.array()).any();
-  }
-  bool mayTouch(const Footprint& footprint, const Pose2& pose, std::size_t obstacle) const {
-    const double reach = footprint.reach() + around->prepared[obstacle].reach_m;
-    const Eigen::Vector2d offset =
-        around->placed[obstacle].map_T_solid.position() - pose.position();
-    return offset.squaredNorm() < reach * reach;
-  }
-};
 
 CollisionChecker::CollisionChecker(const Map& map, double floor_m)
     : data_(std::make_unique<Data>()) {
@@ -157,6 +52,7 @@ CollisionChecker::CollisionChecker(const Map& map, double floor_m)
 
 CollisionChecker::~CollisionChecker() = default;
 CollisionChecker::CollisionChecker(CollisionChecker&&) noexcept = default;
+CollisionChecker& CollisionChecker::operator=(CollisionChecker&&) noexcept = default;
 CollisionChecker::CollisionChecker(const CollisionChecker& other)
     : data_(std::make_unique<Data>(*other.data_)) {}
 
@@ -177,7 +73,9 @@ void CollisionChecker::setObstacles(std::vector<PlacedSolid> obstacles) {
       obstacle.reach_m = std::max(obstacle.reach_m, part.reach());
     }
     around->prepared.push_back(std::move(obstacle));
-    rasterise(placed, &around->columns);
+    visitCells(placed, around->columns, [&around](std::size_t column, std::uint64_t slices) {
+      around->columns.bits[column] |= slices;
+    });
   }
   around->placed = std::move(obstacles);
   data_->around = std::move(around);
@@ -201,15 +99,7 @@ bool CollisionChecker::collides(const Footprint& footprint, const Pose2& map_T_s
     return placed.depthIn(map, column) > 0.0;
   });
   if (hits_map) return true;
-  for (std::size_t i = 0; i < data_->around->placed.size(); ++i) {
-    if (!data_->mayTouch(footprint, map_T_solid, i)) continue;
-    const Pose2& map_T_obstacle = data_->around->placed[i].map_T_solid;
-    if (depthInObstacle(footprint, map_T_solid, data_->around->prepared[i], map_T_obstacle,
-                        nullptr) > 0.0) {
-      return true;
-    }
-  }
-  return false;
+  return data_->overlapsObstacle(footprint, map_T_solid);
 }
 
 std::vector<Contact> CollisionChecker::contacts(const Footprint& footprint,

@@ -10,38 +10,6 @@ namespace {
 constexpr int kPrismSides = 16;
 constexpr double kUprightTolerance = 1e-9;  // 1 - cos(0.05 mrad)
 
-double cross(const Eigen::Vector2d& o, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x();
-}
-
-/// Convex hull, counter-clockwise (Andrew's monotone chain).
-Shadow hull(std::vector<Eigen::Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  std::vector<Eigen::Vector2d> chain;
-  constexpr double kSameArea_m2 = 1e-14;
-  const auto extend = [&](const Eigen::Vector2d& point, std::size_t fixed) {
-    if (!chain.empty() && (chain.back() - point).squaredNorm() < kSameArea_m2) return;
-    while (chain.size() > fixed + 1 &&
-           cross(chain[chain.size() - 2], chain.back(), point) <= kSameArea_m2) {
-      chain.pop_back();
-    }
-    chain.push_back(point);
-  };
-  for (const auto& point : points) extend(point, 0);
-  const std::size_t lower = chain.empty() ? 0 : chain.size() - 1;
-  for (auto point = points.rbegin(); point != points.rend(); ++point) extend(*point, lower);
-  if (chain.size() > 1 && (chain.back() - chain.front()).squaredNorm() < kSameArea_m2) {
-    chain.pop_back();
-  }
-  CASEPUSH_CHECK(chain.size() <= Shadow::kMaxPoints, chain.size() << " points");
-  Shadow result;
-  result.count = static_cast<int>(chain.size());
-  std::copy(chain.begin(), chain.end(), result.points.begin());
-  return result;
-}
-
 using Edges = std::vector<std::array<int, 2>>;
 
 std::vector<Eigen::Vector3d> boxVertices(const Box& box, const Eigen::Isometry3d& frame_T_box) {
@@ -135,7 +103,7 @@ void ConvexPart::makePolytope(std::vector<Eigen::Vector3d> vertices, Edges edges
     heights_.high_m = std::max(heights_.high_m, vertex.z());
     reach_m_ = std::max(reach_m_, vertex.head<2>().norm());
   }
-  outline_ = hull(std::move(points));
+  outline_ = convexHull(std::move(points));
   vertices_ = std::move(vertices);
   edges_ = std::move(edges);
 }
@@ -162,7 +130,7 @@ Shadow ConvexPart::shadow(double low_m, double high_m) const {
       points.push_back((a + (z - a.z()) / (b.z() - a.z()) * (b - a)).head<2>());
     }
   }
-  return hull(std::move(points));
+  return convexHull(std::move(points));
 }
 
 std::vector<ConvexPart> convexParts(const Solid& solid) {

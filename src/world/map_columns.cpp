@@ -88,27 +88,28 @@ void MapColumns::fill(const Map& map, double floor_m) {
   for (std::size_t i = 1; i < first_run.size(); ++i) first_run[i] += first_run[i - 1];
 }
 
-void rasterise(const PlacedSolid& placed, CollisionChecker::Columns* columns) {
+void visitCells(const PlacedSolid& placed, const CollisionChecker::Columns& columns,
+                const std::function<void(std::size_t column, std::uint64_t slices)>& visit) {
   const auto cell = [&](double coordinate_m, double origin_m, int count) {
-    const double index = std::floor((coordinate_m - origin_m) / columns->resolution_m);
+    const double index = std::floor((coordinate_m - origin_m) / columns.resolution_m);
     return static_cast<int>(std::clamp(index, 0.0, count - 1.0));
   };
-  if (columns->bits.empty()) return;
+  if (columns.width == 0 || columns.height == 0) return;
   for (const ConvexPart& part : convexParts(placed.solid)) {
-    for (const Slab& slab : slabs(part, columns->slice_m)) {
+    for (const Slab& slab : slabs(part, columns.slice_m)) {
       const Shadow shadow = transformed(placed.map_T_solid, slab.shadow);
       Eigen::Vector2d low;
       Eigen::Vector2d high;
       shadowBounds(shadow, &low, &high);
-      const int x1 = cell(high.x(), columns->origin_m.x(), columns->width);
-      const int y1 = cell(high.y(), columns->origin_m.y(), columns->height);
-      for (int y = cell(low.y(), columns->origin_m.y(), columns->height); y <= y1; ++y) {
-        for (int x = cell(low.x(), columns->origin_m.x(), columns->width); x <= x1; ++x) {
+      const int x1 = cell(high.x(), columns.origin_m.x(), columns.width);
+      const int y1 = cell(high.y(), columns.origin_m.y(), columns.height);
+      for (int y = cell(low.y(), columns.origin_m.y(), columns.height); y <= y1; ++y) {
+        for (int x = cell(low.x(), columns.origin_m.x(), columns.width); x <= x1; ++x) {
           const Eigen::Vector2d corner =
-              columns->origin_m + Eigen::Vector2d(x, y) * columns->resolution_m;
-          const Shadow square = rectangle(corner, corner.array() + columns->resolution_m);
+              columns.origin_m + Eigen::Vector2d(x, y) * columns.resolution_m;
+          const Shadow square = rectangle(corner, corner.array() + columns.resolution_m);
           if (!closerThan(shadow, square, -kContactTolerance_m)) continue;
-          columns->bits[static_cast<std::size_t>(y) * columns->width + x] |= slab.slices;
+          visit(static_cast<std::size_t>(y) * columns.width + x, slab.slices);
         }
       }
     }

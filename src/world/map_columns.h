@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "casepush/world/collision_checker.h"
@@ -29,7 +31,9 @@ struct MapColumns {
   void fill(const Map& map, double floor_m);
 };
 
-/// Adds to the columns every cell that a placed solid reaches into.
-void rasterise(const PlacedSolid& placed, CollisionChecker::Columns* columns);
+/// Visits every cell of the columns that a placed solid reaches into, with the slices it covers
+/// there; a cell may come up several times.
+void visitCells(const PlacedSolid& placed, const CollisionChecker::Columns& columns,
+                const std::function<void(std::size_t column, std::uint64_t slices)>& visit);
 
 }  // namespace casepush

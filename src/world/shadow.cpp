@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "casepush/common/check.h"
 
 namespace casepush {
 namespace {
@@ -59,7 +62,39 @@ double polygonSeparation(const Shadow& a, const Shadow& b, double limit) {
   return distance;
 }
 
+double turn(const Eigen::Vector2d& o, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x();
+}
+
 }  // namespace
+
+// Andrew's monotone chain.
+Shadow convexHull(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  std::vector<Eigen::Vector2d> chain;
+  constexpr double kSameArea_m2 = 1e-14;
+  const auto extend = [&](const Eigen::Vector2d& point, std::size_t fixed) {
+    if (!chain.empty() && (chain.back() - point).squaredNorm() < kSameArea_m2) return;
+    while (chain.size() > fixed + 1 &&
+           turn(chain[chain.size() - 2], chain.back(), point) <= kSameArea_m2) {
+      chain.pop_back();
+    }
+    chain.push_back(point);
+  };
+  for (const auto& point : points) extend(point, 0);
+  const std::size_t lower = chain.empty() ? 0 : chain.size() - 1;
+  for (auto point = points.rbegin(); point != points.rend(); ++point) extend(*point, lower);
+  if (chain.size() > 1 && (chain.back() - chain.front()).squaredNorm() < kSameArea_m2) {
+    chain.pop_back();
+  }
+  CASEPUSH_CHECK(chain.size() <= Shadow::kMaxPoints, chain.size() << " points");
+  Shadow result;
+  result.count = static_cast<int>(chain.size());
+  std::copy(chain.begin(), chain.end(), result.points.begin());
+  return result;
+}
 
 Shadow transformed(const Pose2& a_T_b, const Shadow& b_shadow) {
   Shadow result;

@@ -22,6 +22,7 @@ LIBRARIES = {
     r"yaml-cpp/": {"common", "cases"},
     r"urdf_\w+/|console_bridge/": {"model"},
     r"octomap/": {"world"},
+    r"fcl/": {"world"},
     r"ompl/": {"planning"},
     r"sqlite3": {"cases"},
     r"bt[A-Z]|Bullet\w+/|LinearMath/": {"sim"},

@@ -52,6 +52,7 @@ class CollisionChecker {
   ~CollisionChecker();
   CollisionChecker(const CollisionChecker&);
   CollisionChecker(CollisionChecker&&) noexcept;
+  CollisionChecker& operator=(CollisionChecker&&) noexcept;
 
   /// Prepares a solid, grown by `margin_m` horizontally. Takes milliseconds: keep it. It can be
   /// used with every checker of a map of the same resolution.
@@ -93,6 +94,7 @@ class CollisionChecker {
   std::shared_ptr<const Columns> mapColumns() const;
 
  private:
+  friend class SweepChecker;
   struct Data;
   std::unique_ptr<Data> data_;
 };

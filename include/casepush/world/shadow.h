@@ -33,6 +33,9 @@ struct BoundingDisc {
 };
 BoundingDisc boundingDisc(const Shadow& shadow);
 
+/// Convex hull of points. @pre it has at most Shadow::kMaxPoints corners.
+Shadow convexHull(std::vector<Eigen::Vector2d> points);
+
 /// Axis-aligned rectangle.
 Shadow rectangle(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m);
 

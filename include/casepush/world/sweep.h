@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "casepush/common/pose2.h"
+
+namespace casepush {
+
+class Footprint;
+class HeightClasses;
+struct SweepMask;
+
+/// A body and the poses that it takes during a motion, in the frame where the motion starts.
+struct Track {
+  enum class Kind {
+    kPath,      ///< Poses in the order of the motion, near each other.
+    kSeparate,  ///< Poses that have nothing to do with each other, e.g. sigma points.
+  };
+  std::shared_ptr<const Footprint> body;
+  std::vector<Pose2> start_T_body;
+  Kind kind = Kind::kPath;
+};
+
+/// Everything that some bodies cover during one motion, ready to be tested at any start pose.
+///
+/// For each of 128 headings of the start there is a mask of the cells that may be covered, for each
+/// class of heights, and one of the cells that certainly are. A heading's masks are made when they
+/// are first asked for (some 0.1 ms) and kept. Thread safety: const methods are reentrant.
+class Sweep {
+ public:
+  /// @param classes  Height classes of all bodies involved.
+  /// @pre There is a track, every track has a pose, and every body the same resolution.
+  Sweep(std::vector<Track> tracks, std::shared_ptr<const HeightClasses> classes);
+  ~Sweep();
+  Sweep(const Sweep&) = delete;
+  Sweep& operator=(const Sweep&) = delete;
+
+  const std::vector<Track>& tracks() const;
+  double reach() const;  ///< No covered point is farther from the start [m].
+
+  /// Masks of the heading's bin.
+  const SweepMask& mask(double yaw_rad) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace casepush

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "casepush/world/collision_checker.h"
+#include "casepush/world/sweep.h"
+
+namespace casepush {
+
+/// Tests whole motions at once against a map and obstacles.
+///
+/// Three stages: the mask of what a sweep may cover accepts it where nothing lies; the mask of what
+/// it certainly covers rejects it where something does; what is left is decided by the true shapes
+/// at the few cells in question. The exact answer is the one CollisionChecker::collides() gives for
+/// all bodies at all poses of the sweep, and the conservative one never misses a collision. Thread
+/// safety: const methods are reentrant. Copies share the map's images.
+class SweepChecker {
+ public:
+  using Bodies = std::vector<std::shared_ptr<const Footprint>>;
+
+  /// Classes of heights for motions of these bodies (never of others) on maps with the checker's
+  /// resolution.
+  static std::shared_ptr<const HeightClasses> heightClasses(const CollisionChecker& checker,
+                                                            const Bodies& bodies);
+
+  /// Takes map and obstacles from `checker`. Takes about a millisecond for the map.
+  /// @param reach_m  Sweeps that reach farther are tested pose by pose.
+  SweepChecker(CollisionChecker checker, std::shared_ptr<const HeightClasses> classes,
+               double reach_m);
+
+  /// The same map with other obstacles, faster than from the start.
+  /// @pre `checker` is a copy of the one that this was made from, but for its obstacles.
+  SweepChecker withObstaclesOf(CollisionChecker checker) const;
+
+  /// False only if the motion is free.
+  bool mayCollide(const Sweep& sweep, const Pose2& map_T_start) const;
+
+  /// Exactly. A pose that is not finite collides.
+  bool collides(const Sweep& sweep, const Pose2& map_T_start) const;
+
+  /// The same, by testing one pose after the other.
+  bool collidesPoseByPose(const Sweep& sweep, const Pose2& map_T_start) const;
+
+  const CollisionChecker& collisions() const { return checker_; }
+  const std::shared_ptr<const HeightClasses>& classes() const { return classes_; }
+
+ private:
+  struct Images;
+  struct Place;
+
+  bool place(const Sweep& sweep, const Pose2& map_T_start, Place* place) const;
+  bool hitsOuter(const Place& place) const;
+  bool hitsCertain(const Place& place) const;
+  bool touchesHitCells(const Sweep& sweep, const Pose2& map_T_start, const Place& place) const;
+  bool touchesCell(const Sweep& sweep, const Pose2& map_T_start, std::size_t column) const;
+  bool touchesRest(const Sweep& sweep, const Pose2& map_T_start, bool outside, bool solids) const;
+
+  CollisionChecker checker_;
+  std::shared_ptr<const HeightClasses> classes_;
+  std::shared_ptr<const Images> map_;     ///< Of the map alone.
+  std::shared_ptr<const Images> around_;  ///< With obstacles.
+};
+
+}  // namespace casepush

@@ -1,0 +1,76 @@
+#include "casepush/world/sweep.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "casepush/common/check.h"
+#include "sweep_mask.h"
+
+namespace casepush {
+namespace {
+
+constexpr int kHeadings = Footprint::kHeadings;
+constexpr double kBin_rad = 2.0 * M_PI / kHeadings;
+
+}  // namespace
+
+struct Sweep::Data {
+  std::vector<Track> tracks;
+  std::shared_ptr<const HeightClasses> classes;
+  std::vector<SweptShape> covering;
+  std::vector<SweptShape> covered;
+  double resolution_m = 0.0;
+  double reach_m = 0.0;
+  std::mutex mutex;
+  std::array<std::atomic<const SweepMask*>, kHeadings> ready{};
+  std::array<std::unique_ptr<const SweepMask>, kHeadings> masks;
+
+  const SweepMask& make(std::size_t bin) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (!masks[bin]) {
+      if (covering.empty()) {
+        covering = coveringShapes(tracks, *classes);
+        covered = coveredShapes(tracks, *classes);
+      }
+      masks[bin] = std::make_unique<const SweepMask>(
+          makeSweepMask(covering, covered, classes->count(), static_cast<double>(bin) * kBin_rad,
+                        kBin_rad / 2.0, resolution_m));
+      ready[bin].store(masks[bin].get(), std::memory_order_release);
+    }
+    return *masks[bin];
+  }
+};
+
+Sweep::Sweep(std::vector<Track> tracks, std::shared_ptr<const HeightClasses> classes)
+    : data_(std::make_unique<Data>()) {
+  CASEPUSH_CHECK(!tracks.empty(), "no tracks");
+  data_->resolution_m = tracks.front().body->resolution();
+  for (const Track& track : tracks) {
+    CASEPUSH_CHECK(!track.start_T_body.empty(), "a track without poses");
+    CASEPUSH_CHECK(track.body->resolution() == data_->resolution_m, "bodies of two resolutions");
+    for (const Pose2& pose : track.start_T_body) {
+      data_->reach_m = std::max(data_->reach_m, pose.position().norm() + track.body->reach());
+    }
+  }
+  data_->tracks = std::move(tracks);
+  data_->classes = std::move(classes);
+}
+
+Sweep::~Sweep() = default;
+
+const std::vector<Track>& Sweep::tracks() const { return data_->tracks; }
+
+double Sweep::reach() const { return data_->reach_m; }
+
+const SweepMask& Sweep::mask(double yaw_rad) const {
+  const int heading = static_cast<int>(std::floor(yaw_rad / kBin_rad + 0.5));
+  const auto bin = static_cast<std::size_t>(heading) & (kHeadings - 1);
+  const SweepMask* ready = data_->ready[bin].load(std::memory_order_acquire);
+  return ready != nullptr ? *ready : data_->make(bin);
+}
+
+}  // namespace casepush

@@ -1,0 +1,150 @@
+#include "swept_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace casepush {
+namespace {
+
+constexpr int kMaxOutline = 12;         // Points of a part; more are replaced by their rectangle.
+constexpr double kChordError_m = 2e-3;  // A path's bend that is smoothed over.
+constexpr std::size_t kMaxChord = 16;   // Poses that one shape covers.
+
+/// A part of a body, its outline simple and grown.
+struct Outline {
+  Shadow shadow;
+  std::uint32_t classes;
+};
+
+Shadow simplified(const Shadow& shadow) {
+  if (shadow.count <= kMaxOutline) return shadow;
+  Eigen::Vector2d low = shadow.points[0];
+  Eigen::Vector2d high = low;
+  for (int i = 1; i < shadow.count; ++i) {
+    low = low.cwiseMin(shadow.points[i]);
+    high = high.cwiseMax(shadow.points[i]);
+  }
+  Shadow box = rectangle(low, high);
+  box.radius_m = shadow.radius_m;
+  return box;
+}
+
+bool isWithin(const Outline& inner, const Outline& outer) {
+  if ((inner.classes & ~outer.classes) != 0) return false;
+  for (int i = 0; i < inner.shadow.count; ++i) {
+    if (separation(outer.shadow, inner.shadow.points[i]) > -inner.shadow.radius_m) return false;
+  }
+  return true;
+}
+
+/// Without those that lie within another one.
+std::vector<Outline> outlines(const Footprint& body, const HeightClasses& classes) {
+  std::vector<Outline> all;
+  for (const ConvexPart& part : body.parts()) {
+    Outline outline{simplified(part.shadow()), classes.touchedBy(part)};
+    outline.shadow.radius_m += body.margin();
+    all.push_back(outline);
+  }
+  std::vector<Outline> kept;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    bool needed = true;
+    for (std::size_t j = 0; j < all.size() && needed; ++j) {
+      const bool covered = i != j && isWithin(all[i], all[j]);
+      needed = !covered || (j > i && isWithin(all[j], all[i]));  // Of equal ones the first stays.
+    }
+    if (needed) kept.push_back(all[i]);
+  }
+  return kept;
+}
+
+double distanceToSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& from,
+                         const Eigen::Vector2d& to) {
+  const Eigen::Vector2d along = to - from;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((point - from).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (point - from - t * along).norm();
+}
+
+/// Do the points move so straight that their hull at both ends covers them in between?
+bool isChord(const std::vector<Shadow>& shadows, std::size_t from, std::size_t to) {
+  for (std::size_t k = from + 1; k < to; ++k) {
+    for (int i = 0; i < shadows[k].count; ++i) {
+      if (distanceToSegment(shadows[k].points[i], shadows[from].points[i], shadows[to].points[i]) >
+          kChordError_m) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+SweptShape shape(const Shadow& shadow, std::uint32_t classes) {
+  SweptShape result{shadow, classes, 0.0};
+  for (int i = 0; i < shadow.count; ++i) {
+    result.reach_m = std::max(result.reach_m, shadow.points[i].norm() + shadow.radius_m);
+  }
+  return result;
+}
+
+Shadow hullOf(const Shadow& a, const Shadow& b) {
+  std::vector<Eigen::Vector2d> points(a.points.begin(), a.points.begin() + a.count);
+  points.insert(points.end(), b.points.begin(), b.points.begin() + b.count);
+  Shadow result = convexHull(std::move(points));
+  result.radius_m = std::max(a.radius_m, b.radius_m) + kChordError_m;
+  return result;
+}
+
+void addPath(const std::vector<Shadow>& shadows, std::uint32_t classes,
+             std::vector<SweptShape>* shapes) {
+  std::size_t from = 0;
+  if (shadows.size() == 1) shapes->push_back(shape(shadows[0], classes));
+  while (from + 1 < shadows.size()) {
+    std::size_t to = from + 1;
+    while (to + 1 < shadows.size() && to - from < kMaxChord && isChord(shadows, from, to + 1)) ++to;
+    shapes->push_back(shape(hullOf(shadows[from], shadows[to]), classes));
+    from = to;
+  }
+}
+
+}  // namespace
+
+std::vector<SweptShape> coveringShapes(const std::vector<Track>& tracks,
+                                       const HeightClasses& classes) {
+  std::vector<SweptShape> shapes;
+  for (const Track& track : tracks) {
+    for (const Outline& outline : outlines(*track.body, classes)) {
+      std::vector<Shadow> shadows;
+      shadows.reserve(track.start_T_body.size());
+      for (const Pose2& pose : track.start_T_body) {
+        shadows.push_back(transformed(pose, outline.shadow));
+      }
+      if (track.kind == Track::Kind::kPath) {
+        addPath(shadows, outline.classes, &shapes);
+      } else {
+        for (const Shadow& shadow : shadows) shapes.push_back(shape(shadow, outline.classes));
+      }
+    }
+  }
+  return shapes;
+}
+
+std::vector<SweptShape> coveredShapes(const std::vector<Track>& tracks,
+                                      const HeightClasses& classes) {
+  std::vector<SweptShape> shapes;
+  for (const Track& track : tracks) {
+    // Every other pose of a path: what lies between hardly adds anything.
+    const std::size_t stride = track.kind == Track::Kind::kPath ? 2 : 1;
+    for (const ConvexPart& part : track.body->parts()) {
+      const std::uint32_t filled = classes.filledBy(part);
+      if (filled == 0 || part.shadow().count > kMaxOutline) continue;
+      Shadow grown = part.shadow();
+      grown.radius_m += track.body->margin();
+      for (std::size_t i = 0; i < track.start_T_body.size(); i += stride) {
+        shapes.push_back(shape(transformed(track.start_T_body[i], grown), filled));
+      }
+    }
+  }
+  return shapes;
+}
+
+}  // namespace casepush
