@@ -4,6 +4,7 @@
 
 namespace casepush {
 
+/// CPU time of the calling thread: what a measurement needs on a machine with other work [s].
 inline double threadSeconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

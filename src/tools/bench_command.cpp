@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bench_cases.h"
+#include "casepush/lab/collision_benchmark.h"
 #include "casepush/lab/sim_benchmark.h"
 #include "command.h"
 #include "sim_bench_json.h"
@@ -130,11 +131,79 @@ int benchSim(const BenchArguments& arguments) {
 
 }  // namespace
 
+namespace {
+
+struct CollisionArguments {
+  CommonOptions common;
+  CollisionBenchmarkOptions options;
+};
+
+int benchCollision(const CollisionArguments& arguments) {
+  const Stopwatch watch;
+  ProgressLine line;
+  CollisionBenchmarkOptions options = arguments.options;
+  options.seed = arguments.common.seed;
+  const CollisionBenchmark measured =
+      measureCollisionChecking(Catalog::standard(), options, [&](int room) {
+        line.show("room " + std::to_string(room + 1) + "/" + std::to_string(options.rooms));
+      });
+  nlohmann::ordered_json backends = nlohmann::ordered_json::array();
+  const double fcl = measured.backends.front().tests_per_s;
+  int missed = 0;
+  for (const CollisionBackend& backend : measured.backends) {
+    missed += backend.missed;
+    backends.push_back({{"backend", backend.name},
+                        {"tests_per_s", backend.tests_per_s},
+                        {"over_fcl", fcl > 0.0 ? backend.tests_per_s / fcl : 0.0},
+                        {"missed", backend.missed},
+                        {"extra", backend.extra}});
+  }
+  printResult(
+      {{"success", missed == 0},
+       {"object", options.object},
+       {"robot", options.robot},
+       {"tests", measured.tests},
+       {"collisions", measured.collisions},
+       {"contacts", measured.contacts},
+       {"seed", arguments.common.seed},
+       {"backends", backends},
+       {"timing",
+        {{"mask_ms", measured.mask_ms}, {"map_ms", measured.map_ms}, {"wall_s", watch.seconds()}}}},
+      arguments.common.json);
+  return missed == 0 ? kExitSuccess : kExitTaskFailed;
+}
+
+void addCollisionBench(CLI::App& bench, Run& run) {
+  auto arguments = std::make_shared<CollisionArguments>();
+  CLI::App* command = bench.add_subcommand(
+      "collision",
+      "Compare ways of testing a whole push for collisions: FCL on the OctoMap, pose by pose on "
+      "columns, sweep masks exactly and conservatively");
+  addCommonOptions(*command, arguments->common);
+  CollisionBenchmarkOptions& options = arguments->options;
+  command->add_option("--object", options.object, "Object by name or URDF file")
+      ->capture_default_str();
+  command->add_option("--robot", options.robot, "Robot by name or URDF file")
+      ->capture_default_str();
+  command->add_option("--tests", options.tests, "Random tests over all rooms")
+      ->capture_default_str();
+  command->add_option("--rooms", options.rooms, "Random rooms")->capture_default_str();
+  command->add_option("--motions", options.motions, "Random pushes in each room")
+      ->capture_default_str();
+  command->add_option("--resolution", options.resolution_m, "Cell of the OctoMap [m]")
+      ->capture_default_str();
+  command->callback(
+      [arguments, &run] { run = [arguments] { return benchCollision(*arguments); }; });
+}
+
+}  // namespace
+
 void addBenchCommand(CLI::App& app, Run& run) {
   auto arguments = std::make_shared<BenchArguments>();
   CLI::App* bench = app.add_subcommand("bench", "Measure parts of casepush");
   bench->require_subcommand(1);
   addBenchCasesCommand(*bench, run);
+  addCollisionBench(*bench, run);
   CLI::App* command = bench->add_subcommand(
       "sim", "Compare the caster models: outcomes of random pushes as distributions, and speed");
   addCommonOptions(*command, arguments->common);
