@@ -16,7 +16,10 @@ constexpr double kBin_rad = 2.0 * M_PI / Footprint::kHeadings;
 Footprint::Footprint(const Solid& solid, double margin_m, double resolution_m, double slice_m)
     : parts_(convexParts(solid)), margin_m_(margin_m), resolution_m_(resolution_m) {
   CASEPUSH_CHECK(!solid.empty() && margin_m >= 0.0, solid.size() << " parts, margin " << margin_m);
-  for (const ConvexPart& part : parts_) reach_m_ = std::max(reach_m_, part.reach());
+  for (const ConvexPart& part : parts_) {
+    reach_m_ = std::max(reach_m_, part.reach());
+    discs_.push_back({part.disc().centre_m, part.disc().radius_m + margin_m});
+  }
   reach_m_ += margin_m;
   reach_cells_ = static_cast<int>(std::ceil(reach_m_ * (1.0 + kBin_rad) / resolution_m)) + 1;
   for (int bin = 0; bin < kHeadings; ++bin) entries_.push_back(rasterise(bin * kBin_rad, slice_m));

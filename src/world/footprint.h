@@ -27,6 +27,8 @@ class Footprint {
   const std::vector<Entry>& entries(double yaw_rad) const;
 
   const std::vector<ConvexPart>& parts() const { return parts_; }
+  /// Around each part, grown by the margin.
+  const std::vector<BoundingDisc>& discs() const { return discs_; }
   double margin() const { return margin_m_; }
   double resolution() const { return resolution_m_; }
   double reach() const { return reach_m_; }        ///< Circumscribed radius, with margin [m].
@@ -36,6 +38,7 @@ class Footprint {
   std::vector<Entry> rasterise(double yaw_rad, double slice_m) const;
 
   std::vector<ConvexPart> parts_;
+  std::vector<BoundingDisc> discs_;
   double margin_m_;
   double resolution_m_;
   double reach_m_ = 0.0;

@@ -1,5 +1,6 @@
 #include "height_classes.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -41,6 +42,10 @@ HeightClasses::HeightClasses(const Bodies& bodies, double slice_m) : slice_m_(sl
   }
   for (const auto& [present, slices] : by_parts) slices_.push_back(slices);
   while (count() > kMost) mergeMostSimilar(bodies);
+  // What covers most collides most often.
+  std::stable_sort(slices_.begin(), slices_.end(), [&](std::uint64_t a, std::uint64_t b) {
+    return area(bodies, a) > area(bodies, b);
+  });
 }
 
 void HeightClasses::mergeMostSimilar(const Bodies& bodies) {

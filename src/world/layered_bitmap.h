@@ -11,6 +11,8 @@ namespace casepush {
 /// Around the image lies a border whose cells are set.
 class LayeredBitmap {
  public:
+  static constexpr int kRowStep = 8;  ///< Masks' rows come in multiples of this.
+
   LayeredBitmap() = default;
   LayeredBitmap(int layers, int width, int height, int border);
 
@@ -19,9 +21,18 @@ class LayeredBitmap {
   void set(int layer, int x, int y, bool value = true);
   bool test(int layer, int x, int y) const;
 
-  /// Is any cell set in a mask of `strips` strips of `rows` words each, whose first bit lies at
-  /// cell (x, y)? @pre rows is a multiple of 4; the mask lies within the image and its border.
-  bool overlaps(int layer, int x, int y, const std::uint64_t* mask, int strips, int rows) const;
+  /// A mask's words for one layer: strip after strip, `rows` words each.
+  struct Part {
+    std::int16_t first_row = 0;
+    std::int16_t rows = 0;    ///< A multiple of kRowStep; 0: empty.
+    std::int32_t offset = 0;  ///< Of the first word.
+  };
+
+  /// Is any cell set that a mask covers in its layer? Part i belongs to layer `first_layer` + i;
+  /// bit 0 of the first strip's row 0 lies at cell (x, y).
+  /// @pre the mask lies within the image and its border.
+  bool overlaps(int first_layer, const Part* parts, int count, const std::uint64_t* words,
+                int strips, int x, int y) const;
 
   /// The 64 cells of row y from x on. @pre as for overlaps().
   std::uint64_t word(int layer, int x, int y) const;

@@ -7,21 +7,65 @@
 
 namespace casepush {
 
-double PlacedFootprint::depthIn(const MapColumns& map, std::size_t column) const {
+namespace {
+
+double depthInCells(const Shadow& square, const ConvexPart& part, double margin_m, double low_m,
+                    double high_m) {
+  if (!part.touches(low_m, high_m)) return 0.0;
+  if (!closerThan(part.shadow(), square, margin_m - kContactTolerance_m)) return 0.0;
+  if (part.isPrism()) return margin_m - separation(part.shadow(), square);
+  const Shadow between = part.shadow(low_m, high_m);
+  return between.empty() ? 0.0 : margin_m - separation(between, square);
+}
+
+}  // namespace
+
+bool reachesInto(const Footprint& footprint, const Shadow& square, const MapColumns& map,
+                 std::size_t column) {
   const double resolution_m = map.columns.resolution_m;
-  const Eigen::Vector2d corner = columnCorner(map.columns, column);
-  const Shadow square = transformed(solid_T_map_, rectangle(corner, corner.array() + resolution_m));
+  const double half_diagonal_m = resolution_m * M_SQRT1_2;
+  const Eigen::Vector2d centre = (square.points[0] + square.points[2]) / 2.0;
+  for (std::size_t i = 0; i < footprint.discs().size(); ++i) {
+    const BoundingDisc& disc = footprint.discs()[i];
+    const double discs_m = disc.radius_m + half_diagonal_m;
+    if ((disc.centre_m - centre).squaredNorm() > discs_m * discs_m) continue;
+    const ConvexPart& part = footprint.parts()[i];
+    for (std::uint32_t run = map.first_run[column]; run < map.first_run[column + 1]; ++run) {
+      const double low_m = map.runs[run].low * resolution_m;
+      const double high_m = map.runs[run].high * resolution_m;
+      if (!part.touches(low_m, high_m)) continue;
+      const double limit_m = footprint.margin() - kContactTolerance_m;
+      if (!closerThan(part.shadow(), square, limit_m)) continue;
+      if (part.isPrism()) return true;
+      const Shadow between = part.shadow(low_m, high_m);
+      if (!between.empty() && closerThan(between, square, limit_m)) return true;
+    }
+  }
+  return false;
+}
+
+double depthInColumn(const Footprint& footprint, const Shadow& square, const MapColumns& map,
+                     std::size_t column) {
+  const double resolution_m = map.columns.resolution_m;
   const Eigen::Vector2d centre = (square.points[0] + square.points[2]) / 2.0;
   double depth = 0.0;
-  for (const ConvexPart& part : footprint_.parts()) {
-    const double discs_m = part.disc().radius_m + footprint_.margin() + resolution_m * M_SQRT1_2;
+  for (const ConvexPart& part : footprint.parts()) {
+    const double discs_m = part.disc().radius_m + footprint.margin() + resolution_m * M_SQRT1_2;
     if ((part.disc().centre_m - centre).squaredNorm() > discs_m * discs_m) continue;
     for (std::uint32_t run = map.first_run[column]; run < map.first_run[column + 1]; ++run) {
-      depth = std::max(depth, depthIn(square, part, map.runs[run].low * resolution_m,
-                                      map.runs[run].high * resolution_m));
+      depth = std::max(
+          depth, depthInCells(square, part, footprint.margin(), map.runs[run].low * resolution_m,
+                              map.runs[run].high * resolution_m));
     }
   }
   return depth > kContactTolerance_m ? depth : 0.0;
+}
+
+double PlacedFootprint::depthIn(const MapColumns& map, std::size_t column) const {
+  const Eigen::Vector2d corner = columnCorner(map.columns, column);
+  const Shadow square =
+      transformed(solid_T_map_, rectangle(corner, corner.array() + map.columns.resolution_m));
+  return depthInColumn(footprint_, square, map, column);
 }
 
 double PlacedFootprint::depthOutside(const Eigen::Vector2d& min_m,
@@ -35,16 +79,6 @@ double PlacedFootprint::depthOutside(const Eigen::Vector2d& min_m,
     depth = std::max(depth, beyond + footprint_.margin());
   }
   return depth > kContactTolerance_m ? depth : 0.0;
-}
-
-double PlacedFootprint::depthIn(const Shadow& square, const ConvexPart& part, double low_m,
-                                double high_m) const {
-  if (!part.touches(low_m, high_m)) return 0.0;
-  const double margin_m = footprint_.margin();
-  if (!closerThan(part.shadow(), square, margin_m - kContactTolerance_m)) return 0.0;
-  if (part.isPrism()) return margin_m - separation(part.shadow(), square);
-  const Shadow between = part.shadow(low_m, high_m);
-  return between.empty() ? 0.0 : margin_m - separation(between, square);
 }
 
 }  // namespace casepush

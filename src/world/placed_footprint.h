@@ -13,6 +13,15 @@ inline Eigen::Vector2d columnCorner(const CollisionChecker::Columns& columns, st
   return columns.origin_m + columns.resolution_m * cell;
 }
 
+/// How deep a grown solid reaches into the occupied cells of a column, whose square is given in the
+/// solid's frame; 0 if not.
+double depthInColumn(const Footprint& footprint, const Shadow& square, const MapColumns& map,
+                     std::size_t column);
+
+/// `depthInColumn(...) > 0.0`, faster.
+bool reachesInto(const Footprint& footprint, const Shadow& square, const MapColumns& map,
+                 std::size_t column);
+
 /// A footprint at a pose. Cells are compared in the solid's own frame, where its shadows are ready.
 class PlacedFootprint {
  public:
@@ -26,8 +35,6 @@ class PlacedFootprint {
   double depthOutside(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m) const;
 
  private:
-  double depthIn(const Shadow& square, const ConvexPart& part, double low_m, double high_m) const;
-
   const Footprint& footprint_;
   Pose2 map_T_solid_;
   Pose2 solid_T_map_;

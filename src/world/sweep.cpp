@@ -20,6 +20,7 @@ constexpr double kBin_rad = 2.0 * M_PI / kHeadings;
 
 struct Sweep::Data {
   std::vector<Track> tracks;
+  std::vector<std::vector<Stop>> stops;  // of each track
   std::shared_ptr<const HeightClasses> classes;
   std::vector<SweptShape> covering;
   std::vector<SweptShape> covered;
@@ -52,7 +53,9 @@ Sweep::Sweep(std::vector<Track> tracks, std::shared_ptr<const HeightClasses> cla
   for (const Track& track : tracks) {
     CASEPUSH_CHECK(!track.start_T_body.empty(), "a track without poses");
     CASEPUSH_CHECK(track.body->resolution() == data_->resolution_m, "bodies of two resolutions");
+    data_->stops.emplace_back();
     for (const Pose2& pose : track.start_T_body) {
+      data_->stops.back().push_back({pose.position(), std::cos(pose.yaw()), std::sin(pose.yaw())});
       data_->reach_m = std::max(data_->reach_m, pose.position().norm() + track.body->reach());
     }
   }
@@ -64,10 +67,15 @@ Sweep::~Sweep() = default;
 
 const std::vector<Track>& Sweep::tracks() const { return data_->tracks; }
 
+const std::vector<Sweep::Stop>& Sweep::stops(std::size_t track) const {
+  return data_->stops[track];
+}
+
 double Sweep::reach() const { return data_->reach_m; }
 
 const SweepMask& Sweep::mask(double yaw_rad) const {
-  const int heading = static_cast<int>(std::floor(yaw_rad / kBin_rad + 0.5));
+  // Shifted by whole turns to where rounding towards zero rounds down.
+  const int heading = static_cast<int>(yaw_rad * (1.0 / kBin_rad) + (0.5 + 4 * kHeadings));
   const auto bin = static_cast<std::size_t>(heading) & (kHeadings - 1);
   const SweepMask* ready = data_->ready[bin].load(std::memory_order_acquire);
   return ready != nullptr ? *ready : data_->make(bin);

@@ -125,27 +125,17 @@ bool SweepChecker::place(const Sweep& sweep, const Pose2& map_T_start, Place* pl
 bool SweepChecker::hitsOuter(const Place& place) const {
   const SweepMask& mask = *place.mask;
   const LayeredBitmap& occupied = around_->occupied;
-  const auto hits = [&](int layer, const SweepMask::Layer& part) {
-    return occupied.overlaps(layer, place.x, place.y + part.first_row,
-                             mask.words.data() + part.offset, mask.strips, part.rows);
-  };
-  if (!hits(classes_->count(), mask.any)) return false;
-  for (int c = 0; c < classes_->count(); ++c) {
-    if (hits(c, mask.outer[c])) return true;
-  }
-  return false;
+  const int classes = classes_->count();
+  return occupied.overlaps(classes, &mask.any, 1, mask.words.data(), mask.strips, place.x,
+                           place.y) &&
+         occupied.overlaps(0, mask.outer.data(), classes, mask.words.data(), mask.strips, place.x,
+                           place.y);
 }
 
 bool SweepChecker::hitsCertain(const Place& place) const {
   const SweepMask& mask = *place.mask;
-  for (int c = 0; c < classes_->count(); ++c) {
-    const SweepMask::Layer& part = mask.certain[c];
-    if (map_->filled.overlaps(c, place.x, place.y + part.first_row, mask.words.data() + part.offset,
-                              mask.strips, part.rows)) {
-      return true;
-    }
-  }
-  return false;
+  return map_->filled.overlaps(0, mask.certain.data(), classes_->count(), mask.words.data(),
+                               mask.strips, place.x, place.y);
 }
 
 bool SweepChecker::mayCollide(const Sweep& sweep, const Pose2& map_T_start) const {
@@ -162,48 +152,69 @@ bool SweepChecker::collides(const Sweep& sweep, const Pose2& map_T_start) const 
   return hitsOuter(at) && (hitsCertain(at) || touchesHitCells(sweep, map_T_start, at));
 }
 
+// Cells of a row of the whole mask that are occupied in a class in which they may be covered.
+std::uint64_t SweepChecker::hitsOf(const Place& place, int row, int strip) const {
+  const SweepMask& mask = *place.mask;
+  const int mask_row = mask.any.first_row + row;
+  std::uint64_t hits = 0;
+  for (int c = 0; c < classes_->count(); ++c) {
+    const SweepMask::Layer& layer = mask.outer[c];
+    const int own_row = mask_row - layer.first_row;
+    if (own_row < 0 || own_row >= layer.rows) continue;
+    const std::uint64_t covered = mask.words[layer.offset + strip * layer.rows + own_row];
+    if (covered == 0) continue;
+    hits |= covered & around_->occupied.word(c, place.x + strip * kBits, place.y + mask_row);
+  }
+  return hits;
+}
+
 bool SweepChecker::touchesHitCells(const Sweep& sweep, const Pose2& map_T_start,
                                    const Place& place) const {
   const SweepMask& mask = *place.mask;
   const CollisionChecker::Columns& map = checker_.data_->map->columns;
   const CollisionChecker::Columns& around = checker_.columns();
+  const Pose2 start_T_map = map_T_start.inverse();
   bool outside = false;
   bool solids = false;
-  for (int c = 0; c < classes_->count(); ++c) {
-    const SweepMask::Layer& layer = mask.outer[c];
-    const std::uint64_t* word = mask.words.data() + layer.offset;
-    for (int i = 0; i < mask.strips * layer.rows; ++i) {
-      const int x0 = place.x + i / layer.rows * kBits;
-      const int y = place.y + layer.first_row + i % layer.rows;
-      std::uint64_t hits = word[i] == 0 ? 0 : word[i] & around_->occupied.word(c, x0, y);
-      for (; hits != 0; hits &= hits - 1) {
+  for (int row = 0; row < mask.any.rows; ++row) {
+    const int y = place.y + mask.any.first_row + row;
+    for (int strip = 0; strip < mask.strips; ++strip) {
+      const int x0 = place.x + strip * kBits;
+      for (std::uint64_t hits = hitsOf(place, row, strip); hits != 0; hits &= hits - 1) {
         const int x = x0 + __builtin_ctzll(hits);
         if (x < 0 || y < 0 || x >= map.width || y >= map.height) {
           outside = true;
           continue;
         }
         const std::size_t column = static_cast<std::size_t>(y) * map.width + x;
-        const std::uint64_t own = map.bits[column] & classes_->slices(c);
-        if (own != 0 && touchesCell(sweep, map_T_start, column)) return true;
-        solids = solids || (around.bits[column] & classes_->slices(c)) != own;
+        const Eigen::Vector2d corner = map.origin_m + map.resolution_m * Eigen::Vector2d(x, y);
+        const Shadow square =
+            transformed(start_T_map, rectangle(corner, corner.array() + map.resolution_m));
+        if (map.bits[column] != 0 && touchesCell(sweep, square, column)) return true;
+        solids = solids || around.bits[column] != map.bits[column];
       }
     }
   }
   return (outside || solids) && touchesRest(sweep, map_T_start, outside, solids);
 }
 
-bool SweepChecker::touchesCell(const Sweep& sweep, const Pose2& map_T_start,
+bool SweepChecker::touchesCell(const Sweep& sweep, const Shadow& start_square,
                                std::size_t column) const {
   const MapColumns& map = *checker_.data_->map;
-  const double resolution_m = map.columns.resolution_m;
-  const Eigen::Vector2d corner = columnCorner(map.columns, column);
-  const Eigen::Vector2d centre =
-      map_T_start.inverse() * Eigen::Vector2d(corner.array() + resolution_m / 2.0);
-  for (const Track& track : sweep.tracks()) {
-    const double near_m = track.body->reach() + resolution_m * M_SQRT1_2;
-    for (const Pose2& pose : track.start_T_body) {
-      if ((pose.position() - centre).squaredNorm() > near_m * near_m) continue;
-      if (PlacedFootprint(*track.body, map_T_start * pose).depthIn(map, column) > 0.0) return true;
+  const Eigen::Vector2d centre = (start_square.points[0] + start_square.points[2]) / 2.0;
+  Shadow square;
+  square.count = start_square.count;
+  for (std::size_t t = 0; t < sweep.tracks().size(); ++t) {
+    const Footprint& body = *sweep.tracks()[t].body;
+    const double near_m = body.reach() + map.columns.resolution_m * M_SQRT1_2;
+    for (const Sweep::Stop& stop : sweep.stops(t)) {
+      if ((stop.position_m - centre).squaredNorm() > near_m * near_m) continue;
+      for (int i = 0; i < square.count; ++i) {
+        const Eigen::Vector2d offset = start_square.points[i] - stop.position_m;
+        square.points[i] = {stop.cosine * offset.x() + stop.sine * offset.y(),
+                            stop.cosine * offset.y() - stop.sine * offset.x()};
+      }
+      if (reachesInto(body, square, map, column)) return true;
     }
   }
   return false;

@@ -148,10 +148,10 @@ class Canvas {
       }
     }
     if (last < 0) return layer;
-    constexpr int kVector = 4;
-    layer.first_row = box_.y0 + first;
-    layer.rows = (last - first + kVector) / kVector * kVector;
-    layer.offset = words->size();
+    constexpr int kStep = LayeredBitmap::kRowStep;
+    layer.first_row = static_cast<std::int16_t>(box_.y0 + first);
+    layer.rows = static_cast<std::int16_t>((last - first + kStep) / kStep * kStep);
+    layer.offset = static_cast<std::int32_t>(words->size());
     for (int s = 0; s < strips_; ++s) {
       for (int i = 0; i < layer.rows; ++i) {
         words->push_back(first + i <= last ? united(classes, s, first + i) : 0);
@@ -253,8 +253,8 @@ SweepMask makeSweepMask(const std::vector<SweptShape>& covering,
   mask.first_column = box.x0;
   mask.strips = outer.strips();
   mask.any = outer.appendTo((1U << classes) - 1, &mask.words);
-  for (int c = 0; c < classes; ++c) mask.outer.push_back(outer.appendTo(1U << c, &mask.words));
-  for (int c = 0; c < classes; ++c) mask.certain.push_back(certain.appendTo(1U << c, &mask.words));
+  for (int c = 0; c < classes; ++c) mask.outer[c] = outer.appendTo(1U << c, &mask.words);
+  for (int c = 0; c < classes; ++c) mask.certain[c] = certain.appendTo(1U << c, &mask.words);
   mask.words.shrink_to_fit();
   return mask;
 }

@@ -1,26 +1,23 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "layered_bitmap.h"
 #include "swept_shapes.h"
 
 namespace casepush {
 
 /// Bit masks of what a sweep covers at one heading, relative to the cell of its start.
 struct SweepMask {
-  /// A stack of words, see LayeredBitmap::overlaps().
-  struct Layer {
-    int first_row = 0;
-    int rows = 0;            ///< A multiple of 4; 0: empty.
-    std::size_t offset = 0;  ///< Into words.
-  };
+  using Layer = LayeredBitmap::Part;
 
   int first_column = 0;
   int strips = 0;
-  Layer any;                   ///< Of all classes together.
-  std::vector<Layer> outer;    ///< For each height class: may be covered.
-  std::vector<Layer> certain;  ///< For each height class: certainly covered.
+  Layer any;                                          ///< Of all classes together.
+  std::array<Layer, HeightClasses::kMost> outer{};    ///< For each class: may be covered.
+  std::array<Layer, HeightClasses::kMost> certain{};  ///< For each class: certainly covered.
   std::vector<std::uint64_t> words;
 };
 

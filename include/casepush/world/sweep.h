@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
@@ -38,6 +39,14 @@ class Sweep {
 
   const std::vector<Track>& tracks() const;
   double reach() const;  ///< No covered point is farther from the start [m].
+
+  /// A pose of a track, ready to take points to the body's frame.
+  struct Stop {
+    Eigen::Vector2d position_m;
+    double cosine;
+    double sine;
+  };
+  const std::vector<Stop>& stops(std::size_t track) const;
 
   /// Masks of the heading's bin.
   const SweepMask& mask(double yaw_rad) const;

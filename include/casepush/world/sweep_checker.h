@@ -52,8 +52,9 @@ class SweepChecker {
   bool place(const Sweep& sweep, const Pose2& map_T_start, Place* place) const;
   bool hitsOuter(const Place& place) const;
   bool hitsCertain(const Place& place) const;
+  std::uint64_t hitsOf(const Place& place, int row, int strip) const;
   bool touchesHitCells(const Sweep& sweep, const Pose2& map_T_start, const Place& place) const;
-  bool touchesCell(const Sweep& sweep, const Pose2& map_T_start, std::size_t column) const;
+  bool touchesCell(const Sweep& sweep, const Shadow& start_square, std::size_t column) const;
   bool touchesRest(const Sweep& sweep, const Pose2& map_T_start, bool outside, bool solids) const;
 
   CollisionChecker checker_;
