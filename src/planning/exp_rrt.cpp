@@ -169,6 +169,9 @@ int ExpRrt::select(const Target& target) {
   if (options_.similarity == Similarity::kPaper) {
     return selectMostSimilar(target.pose);
   }
+  if (solutions_.empty()) {
+    return tree_.nearestOpen(target.pose);
+  }
   while (!tree_.openIds().empty()) {
     const int chosen =
         isImproving(target) ? selectMostPromising() : selectCheapestNear(target.pose);
@@ -184,9 +187,7 @@ int ExpRrt::select(const Target& target) {
 // A random radius keeps the tree exploring: a fixed large one never leaves the cheapest nodes.
 int ExpRrt::selectCheapestNear(const Pose2& target) {
   nearby_.clear();
-  const double radius_m =
-      solutions_.empty() ? options_.selection_radius_m : options_.improving_radius_m;
-  tree_.open().within(target, random_.uniform(0.0, radius_m), &nearby_);
+  tree_.open().within(target, random_.uniform(0.0, options_.improving_radius_m), &nearby_);
   const auto cheaper = [this](int a, int b) {
     return std::make_pair(tree_.node(a).cost_s, a) < std::make_pair(tree_.node(b).cost_s, b);
   };
@@ -242,7 +243,7 @@ int ExpRrt::chooseCase(int node, const Target& target) {
   }
   std::sort(order_.begin(), order_.end());
   for (const auto& [key, push] : order_) {
-    if (checker_->conflict(cases_[push], pose) == PushConflict::kNone) {
+    if (checker_->isSafe(cases_[push], pose)) {
       return push;
     }
     tree_.markTried(node, push);
@@ -259,7 +260,7 @@ int ExpRrt::chooseCaseChecked(int node, const Pose2& target) {
     if (tree_.isTried(node, push)) {
       continue;
     }
-    if (checker_->conflict(cases_[push], pose) != PushConflict::kNone) {
+    if (!checker_->isSafe(cases_[push], pose)) {
       tree_.markTried(node, push);
       continue;
     }

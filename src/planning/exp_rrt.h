@@ -41,10 +41,9 @@ struct ExpRrtOptions {
   int max_nodes = 50625;            ///< Paper section 6.
   double gyration_radius_m = 0.3;   ///< rho of the metric.
   double spacing_m = 0.1;           ///< Of nodes nearer than this only the cheaper grows.
-  double selection_radius_m = 1.0;  ///< The cheapest node within up to this is extended.
   // While a solution is being improved, besides:
   double improving_goal_bias = 0.5;  ///< In the place of goal_bias.
-  double improving_radius_m = 2.0;   ///< In the place of selection_radius_m.
+  double improving_radius_m = 2.0;   ///< The cheapest node within up to this is extended.
   double greed = 2.0;                ///< Weight of the time that a node still needs to the goal.
   std::uint64_t seed = 1;
 };

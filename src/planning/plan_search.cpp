@@ -45,7 +45,10 @@ ob::ProblemDefinitionPtr makeDefinition(const ob::SpaceInformationPtr& space,
 }
 
 std::vector<PreparedCase> prepare(const SearchProblem& problem, double step_m, double zeta) {
-  return prepareCases(problem.cases, zeta, step_m, problem.object.radius_m, problem.robot.radius_m);
+  std::vector<PreparedCase> cases =
+      prepareCases(problem.cases, zeta, step_m, problem.object.radius_m, problem.robot.radius_m);
+  problem.attach_sweeps(&cases);
+  return cases;
 }
 
 ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& space,
@@ -59,7 +62,6 @@ ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& spac
   // As printed, the algorithm knows no cost: there only the very same pose is a duplicate.
   constexpr double kSamePose_m = 1e-3;
   rrt.spacing_m = options.similarity == Similarity::kPaper ? kSamePose_m : options.spacing_m;
-  rrt.selection_radius_m = options.selection_radius_m;
   rrt.seed = problem.request.seed;
   const double step_m = kStepPerCell * checker->collisions().columns().resolution_m;
   std::vector<PreparedCase> cases = prepare(problem, step_m, zeta);

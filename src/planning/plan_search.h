@@ -38,6 +38,7 @@ struct SearchProblem {
   const PushPlannerOptions& options;
   const RobotPathPlanner& paths;
   const std::vector<PlacedSolid>& obstacles;
+  std::function<void(std::vector<PreparedCase>*)> attach_sweeps;
 };
 
 /// One search with one spread of sigma points: grows an Exp-RRT, compares its solutions by expected

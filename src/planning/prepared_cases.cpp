@@ -61,8 +61,10 @@ PreparedCase prepare(const Case& push_case, double zeta, double step_m, double o
     object.push_back(step.start_T_object);
     robot.push_back(step.start_T_robot());
   }
-  prepared.start_T_object = coarseToFine(resample(object, step_m, object_radius_m));
-  prepared.start_T_robot = coarseToFine(resample(robot, step_m, robot_radius_m));
+  prepared.object_path = resample(object, step_m, object_radius_m);
+  prepared.robot_path = resample(robot, step_m, robot_radius_m);
+  prepared.start_T_object = coarseToFine(prepared.object_path);
+  prepared.start_T_robot = coarseToFine(prepared.robot_path);
   prepared.robot_begin = robot.front();
   // As recorded: with the mean outcome, which was learnt later, the two might overlap.
   prepared.outcome_T_robot = push_case.steps.back().object_T_robot;

@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace casepush {
+namespace {
+
+constexpr double kToleranceRange_m = 0.3;
+
+}  // namespace
 
 const char* toString(PushConflict conflict) {
   switch (conflict) {
@@ -21,10 +26,18 @@ const char* toString(PushConflict conflict) {
 }
 
 PushChecker::PushChecker(CollisionChecker checker, Body object, Body robot)
-    : checker_(std::move(checker)),
-      clearance_(checker_.columns()),
+    : checker_(std::move(checker)), object_(std::move(object)), robot_(std::move(robot)) {}
+
+PushChecker::PushChecker(SweepChecker sweeps, Body object, Body robot)
+    : checker_(sweeps.collisions()),
+      sweeps_(std::move(sweeps)),
       object_(std::move(object)),
       robot_(std::move(robot)) {}
+
+const ClearanceField& PushChecker::clearance() {
+  if (!clearance_) clearance_.emplace(checker_.columns());
+  return *clearance_;
+}
 
 void PushChecker::tolerateStart(const Pose2& map_T_start) {
   tolerated_start_ = map_T_start;
@@ -39,9 +52,8 @@ bool PushChecker::isFree(const Pose2& map_T_object) {
 }
 
 bool PushChecker::isTolerated(const Pose2& map_T_object) const {
-  constexpr double kRange_m = 0.3;
   constexpr double kSlack_m = 1e-3;
-  if (tolerated_depth_m_ <= 0.0 || distance(map_T_object, tolerated_start_) > kRange_m) {
+  if (tolerated_depth_m_ <= 0.0 || distance(map_T_object, tolerated_start_) > kToleranceRange_m) {
     return false;
   }
   const std::vector<Contact> contacts = checker_.contacts(*object_.footprint, map_T_object);
@@ -52,7 +64,7 @@ bool PushChecker::isTolerated(const Pose2& map_T_object) const {
 
 bool PushChecker::collides(const Body& body, const Pose2& map_T_x) {
   ++check_count_;
-  return clearance_.at(map_T_x.position()) < body.radius_m &&
+  return clearance().at(map_T_x.position()) < body.radius_m &&
          checker_.collides(*body.footprint, map_T_x);
 }
 
@@ -60,12 +72,13 @@ bool PushChecker::anyCollides(const Body& body, const Pose2& map_T_start,
                               const std::vector<Pose2>& start_T_x) {
   const double cosine = std::cos(map_T_start.yaw());
   const double sine = std::sin(map_T_start.yaw());
+  const ClearanceField& clear = clearance();
   for (const Pose2& pose : start_T_x) {
     ++check_count_;
     // In the open the position alone decides, without the trigonometry of a product of poses.
     const Eigen::Vector2d position(map_T_start.x() + cosine * pose.x() - sine * pose.y(),
                                    map_T_start.y() + sine * pose.x() + cosine * pose.y());
-    if (clearance_.at(position) < body.radius_m &&
+    if (clear.at(position) < body.radius_m &&
         checker_.collides(*body.footprint, map_T_start * pose)) {
       return true;
     }
@@ -80,6 +93,18 @@ bool PushChecker::objectCollidesOnItsWay(const PreparedCase& push_case, const Po
   return tolerated_depth_m_ <= 0.0 ||
          std::any_of(push_case.start_T_object.begin(), push_case.start_T_object.end(),
                      [&](const Pose2& pose) { return !isFree(map_T_start * pose); });
+}
+
+bool PushChecker::isSafe(const PreparedCase& push_case, const Pose2& map_T_object) {
+  if (!sweeps_ || !push_case.sweep) {
+    return conflict(push_case, map_T_object) == PushConflict::kNone;
+  }
+  ++check_count_;
+  if (!sweeps_->collides(*push_case.sweep, map_T_object)) return true;
+  // Only near the tolerated start may a motion overlap anything.
+  const double reach_m = push_case.sweep->reach() + kToleranceRange_m;
+  return tolerated_depth_m_ > 0.0 && distance(map_T_object, tolerated_start_) <= reach_m &&
+         conflict(push_case, map_T_object) == PushConflict::kNone;
 }
 
 PushConflict PushChecker::conflict(const PreparedCase& push_case, const Pose2& map_T_object) {

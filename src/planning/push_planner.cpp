@@ -11,10 +11,12 @@
 #include "casepush/common/violations.h"
 #include "plan_request.h"
 #include "plan_search.h"
+#include "sweep_library.h"
 
 namespace casepush {
 namespace {
 
+constexpr double kSweepReach_m = 4.0;      // Longer pushes are tested pose by pose.
 constexpr std::size_t kShownEdges = 4000;  // More than can be told apart on a screen.
 
 std::vector<double> zetaLevels(double zeta) {
@@ -80,6 +82,7 @@ struct PushPlanner::Data {
   struct Footprints {
     std::shared_ptr<const Footprint> exact;
     std::shared_ptr<const Footprint> grown;
+    std::shared_ptr<const SweepChecker> sweeps;  ///< Of the grown object and the robot on the map.
   };
 
   std::shared_ptr<const Map> map;
@@ -90,6 +93,7 @@ struct PushPlanner::Data {
   RobotPathPlanner paths;
   std::shared_ptr<const Footprint> robot_footprint;
   std::map<std::string, Footprints> footprints;
+  std::unique_ptr<SweepLibrary> library;
 
   CollisionChecker checkerWith(const std::vector<PlacedSolid>& obstacles) const {
     CollisionChecker copy = checker;
@@ -100,7 +104,7 @@ struct PushPlanner::Data {
   PushChecker pushChecker(const std::string& model,
                           const std::vector<PlacedSolid>& obstacles) const {
     return PushChecker(
-        checkerWith(obstacles),
+        footprints.at(model).sweeps->withObstaclesOf(checkerWith(obstacles)),
         {footprints.at(model).grown, objects.at(model).radius_m + options.object_margin_m},
         {robot_footprint, robot.radius_m + options.robot_margin_m});
   }
@@ -122,7 +126,6 @@ void PushPlannerOptions::validate() const {
   violations.require("solutions", solutions, 1, kInfinity);
   violations.require("improvement_extensions", improvement_extensions, 0, kInfinity);
   violations.requirePositive("spacing_m", spacing_m, 1.0);
-  violations.require("selection_radius_m", selection_radius_m, 0.0, 5.0);
   violations.requirePositive("time.drive_speed_mps", time.drive_speed_mps, kInfinity);
   violations.requirePositive("time.turn_rate_rps", time.turn_rate_rps, kInfinity);
   violations.require("time.clearance_m", time.clearance_m, 0.0, kInfinity);
@@ -146,7 +149,8 @@ PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
                                       std::move(checker),
                                       std::move(paths),
                                       {},
-                                      {}});
+                                      {},
+                                      std::make_unique<SweepLibrary>()});
   data_->robot_footprint = data_->checker.footprint(data_->robot.solid, options.robot_margin_m);
   for (const auto& [name, model] : data_->objects) {
     Data::Footprints& footprints = data_->footprints[name];
@@ -154,6 +158,10 @@ PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
     footprints.grown = options.object_margin_m > 0.0
                            ? data_->checker.footprint(model.solid, options.object_margin_m)
                            : footprints.exact;
+    footprints.sweeps = std::make_shared<const SweepChecker>(
+        data_->checker,
+        SweepChecker::heightClasses(data_->checker, {footprints.grown, data_->robot_footprint}),
+        kSweepReach_m);
   }
 }
 
@@ -199,8 +207,17 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
     return failed(problem->status, problem->explanation);
   }
   push_checker.tolerateStart(request.object.map_T_object);
-  const SearchProblem problem{request, cases,    objects.at(request.object.model), robot, options,
-                              paths,   obstacles};
+  const SearchProblem problem{request,
+                              cases,
+                              objects.at(request.object.model),
+                              robot,
+                              options,
+                              paths,
+                              obstacles,
+                              [this, &own](std::vector<PreparedCase>* prepared) {
+                                library->attach(own.sweeps->classes(), own.grown, robot_footprint,
+                                                prepared);
+                              }};
   PlanResult result;
   for (const double zeta : zetaLevels(options.zeta)) {
     PlanSearch search(problem, &push_checker, zeta);

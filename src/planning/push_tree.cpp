@@ -103,6 +103,16 @@ void PushTree::close(int id) {
   open_ids_.pop_back();
 }
 
+int PushTree::nearestOpen(const Pose2& pose) const {
+  constexpr std::size_t kFew = 48;  // So few are faster to look through than empty buckets are.
+  if (open_ids_.size() > kFew) return open_.nearest(pose);
+  std::pair<double, int> best{std::numeric_limits<double>::infinity(), -1};
+  for (const int id : open_ids_) {
+    best = std::min(best, {squaredPoseDistance(nodes_[id].map_T_object, pose, rho_m_), id});
+  }
+  return best.second;
+}
+
 void PushTree::removeSubtree(int id) {
   close(id);
   state_[id] = State::kRemoved;

@@ -54,6 +54,9 @@ class PushTree {
   /// Removes a node and all below it. What was turned down in favour of them gets a new chance.
   void removeSubtree(int id);
 
+  /// The nearest open node, or -1; of equally near ones the one with the lowest id.
+  int nearestOpen(const Pose2& pose) const;
+
   const PoseGrid& open() const { return open_; }
   /// Ids of the open nodes in a fixed order.
   const std::vector<int>& openIds() const { return open_ids_; }

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "casepush/planning/clearance_field.h"
 #include "casepush/planning/prepared_cases.h"
-#include "casepush/world/collision_checker.h"
+#include "casepush/world/sweep_checker.h"
 
 namespace casepush {
 
@@ -33,9 +34,15 @@ class PushChecker {
   /// @param object, robot  With whatever margin they should be tested with.
   PushChecker(CollisionChecker checker, Body object, Body robot);
 
+  /// For cases with sweeps of these very bodies, which are tested in one go.
+  PushChecker(SweepChecker sweeps, Body object, Body robot);
+
   /// Lets the object's motion overlap the surroundings near its start as deep as it does there,
   /// e.g. when it stands at a wall whose cells are coarse. Outcomes must be free all the same.
   void tolerateStart(const Pose2& map_T_start);
+
+  /// `conflict(...) == kNone`, fast for a case with a sweep.
+  bool isSafe(const PreparedCase& push_case, const Pose2& map_T_object);
 
   /// The first conflict found if the object is pushed from rest at `map_T_object`.
   PushConflict conflict(const PreparedCase& push_case, const Pose2& map_T_object);
@@ -44,16 +51,18 @@ class PushChecker {
   bool isFree(const Pose2& map_T_object);
 
   const CollisionChecker& collisions() const { return checker_; }
-  int checkCount() const { return check_count_; }  ///< Poses tested so far.
+  int checkCount() const { return check_count_; }  ///< Poses and sweeps tested so far.
 
  private:
+  const ClearanceField& clearance();
   bool isTolerated(const Pose2& map_T_object) const;
   bool objectCollidesOnItsWay(const PreparedCase& push_case, const Pose2& map_T_start);
   bool collides(const Body& body, const Pose2& map_T_x);
   bool anyCollides(const Body& body, const Pose2& map_T_start, const std::vector<Pose2>& start_T_x);
 
   CollisionChecker checker_;
-  ClearanceField clearance_;
+  std::optional<SweepChecker> sweeps_;
+  std::optional<ClearanceField> clearance_;  // made when a pose is tested first
   Body object_;
   Body robot_;
   Pose2 tolerated_start_;

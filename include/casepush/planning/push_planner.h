@@ -27,8 +27,6 @@ struct PushPlannerOptions {
   int solutions = 16;                  ///< Solutions to compare before the cheapest is returned.
   int improvement_extensions = 20000;  ///< Search for cheaper plans after the first one.
   double spacing_m = 0.1;  ///< Of tree nodes nearer than this only the cheaper one grows.
-  double selection_radius_m =
-      1.0;               ///< The cheapest node within up to this of a sample is extended.
   PushTimeOptions time;  ///< What the robot's way between pushes costs.
   RobotPathOptions robot_path;
   void validate() const;  ///< @throws InputError listing every violation.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "casepush/world/collision_checker.h"
+#include "casepush/world/shadow.h"
 #include "casepush/world/sweep.h"
 
 namespace casepush {
