@@ -30,6 +30,7 @@ class ClearanceGrid {
   int width() const { return width_; }
   int height() const { return height_; }
   int size() const { return width_ * height_; }
+  const Eigen::Vector2d& origin() const { return origin_m_; }  ///< Corner of cell 0.
   double resolution() const { return resolution_m_; }
   float clearance(int cell) const { return clearance_m_[cell]; }
 

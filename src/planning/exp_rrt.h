@@ -37,10 +37,10 @@ class PushGoal : public ompl::base::GoalSampleableRegion {
 
 struct ExpRrtOptions {
   Similarity similarity = Similarity::kMetric;
-  double goal_bias = 0.2;           ///< Probability that the sample is the goal (paper: 0.95).
-  int max_nodes = 50625;            ///< Paper section 6.
-  double gyration_radius_m = 0.3;   ///< rho of the metric.
-  double spacing_m = 0.1;           ///< Of nodes nearer than this only the cheaper grows.
+  double goal_bias = 0.2;          ///< Probability that the sample is the goal (paper: 0.95).
+  int max_nodes = 50625;           ///< Paper section 6.
+  double gyration_radius_m = 0.3;  ///< rho of the metric.
+  double spacing_m = 0.1;          ///< Of nodes nearer than this only the cheaper grows.
   // While a solution is being improved, besides:
   double improving_goal_bias = 0.5;  ///< In the place of goal_bias.
   double improving_radius_m = 2.0;   ///< The cheapest node within up to this is extended.

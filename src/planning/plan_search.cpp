@@ -92,6 +92,7 @@ PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker, doubl
       space_(makeSpace(checker)),
       definition_(makeDefinition(space_, problem.request)),
       rrt_(makeRrt(problem, space_, checker, zeta)),
+      approach_check_(problem.approaches, checker->collisions(), problem.request.obstacles),
       path_checker_(checker->collisions()) {
   rrt_.setProblemDefinition(definition_);
   rrt_.setup();
@@ -162,6 +163,14 @@ bool PlanSearch::canApproach(int node) {
   const PushNode& start = rrt_.tree().node(pushed.parent);
   const PreparedCase& push_case = rrt_.cases()[pushed.push];
   const Pose2& map_T_object = start.map_T_object;
+  const PlacedObject object{"", problem_.request.object.model, map_T_object};
+  const bool is_simple =
+      start.parent == PushNode::kRoot
+          ? approach_check_.canReach(object, problem_.request.map_T_robot, push_case)
+          : approach_check_.canFollow(object, rrt_.cases()[start.push], push_case);
+  if (is_simple) {
+    return true;
+  }
   const Pose2 map_T_robot = start.parent == PushNode::kRoot
                                 ? problem_.request.map_T_robot
                                 : map_T_object * rrt_.cases()[start.push].outcome_T_robot;

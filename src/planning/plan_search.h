@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "approach_check.h"
 #include "casepush/planning/push_planner.h"
 #include "exp_rrt.h"
 
@@ -39,6 +40,7 @@ struct SearchProblem {
   const RobotPathPlanner& paths;
   const std::vector<PlacedSolid>& obstacles;
   std::function<void(std::vector<PreparedCase>*)> attach_sweeps;
+  ApproachLibrary* approaches;
 };
 
 /// One search with one spread of sigma points: grows an Exp-RRT, compares its solutions by expected
@@ -70,6 +72,7 @@ class PlanSearch {
   ompl::base::SpaceInformationPtr space_;
   ompl::base::ProblemDefinitionPtr definition_;
   ExpRrt rrt_;
+  ApproachCheck approach_check_;
   CollisionChecker path_checker_;
   std::vector<int> approachable_;  // nodes whose push the robot can get to
   std::string approach_problem_;

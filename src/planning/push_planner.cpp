@@ -94,6 +94,7 @@ struct PushPlanner::Data {
   std::shared_ptr<const Footprint> robot_footprint;
   std::map<std::string, Footprints> footprints;
   std::unique_ptr<SweepLibrary> library;
+  std::unique_ptr<ApproachLibrary> approaches;
 
   CollisionChecker checkerWith(const std::vector<PlacedSolid>& obstacles) const {
     CollisionChecker copy = checker;
@@ -150,8 +151,11 @@ PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
                                       std::move(paths),
                                       {},
                                       {},
-                                      std::make_unique<SweepLibrary>()});
+                                      std::make_unique<SweepLibrary>(),
+                                      {}});
   data_->robot_footprint = data_->checker.footprint(data_->robot.solid, options.robot_margin_m);
+  data_->approaches = std::make_unique<ApproachLibrary>(data_->checker, data_->robot,
+                                                        data_->objects, options.robot_path);
   for (const auto& [name, model] : data_->objects) {
     Data::Footprints& footprints = data_->footprints[name];
     footprints.exact = data_->checker.footprint(model.solid);
@@ -217,7 +221,8 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
                               [this, &own](std::vector<PreparedCase>* prepared) {
                                 library->attach(own.sweeps->classes(), own.grown, robot_footprint,
                                                 prepared);
-                              }};
+                              },
+                              approaches.get()};
   PlanResult result;
   for (const double zeta : zetaLevels(options.zeta)) {
     PlanSearch search(problem, &push_checker, zeta);
