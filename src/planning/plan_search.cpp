@@ -4,7 +4,10 @@
 #include <ompl/base/spaces/SE2StateSpace.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "origin_distance.h"
 
 namespace casepush {
 namespace {
@@ -44,13 +47,6 @@ ob::ProblemDefinitionPtr makeDefinition(const ob::SpaceInformationPtr& space,
   return definition;
 }
 
-std::vector<PreparedCase> prepare(const SearchProblem& problem, double step_m, double zeta) {
-  std::vector<PreparedCase> cases =
-      prepareCases(problem.cases, zeta, step_m, problem.object.radius_m, problem.robot.radius_m);
-  problem.attach_sweeps(&cases);
-  return cases;
-}
-
 ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& space,
                PushChecker* checker, double zeta) {
   const PushPlannerOptions& options = problem.options;
@@ -63,8 +59,7 @@ ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& spac
   constexpr double kSamePose_m = 1e-3;
   rrt.spacing_m = options.similarity == Similarity::kPaper ? kSamePose_m : options.spacing_m;
   rrt.seed = problem.request.seed;
-  const double step_m = kStepPerCell * checker->collisions().columns().resolution_m;
-  std::vector<PreparedCase> cases = prepare(problem, step_m, zeta);
+  std::vector<PreparedCase> cases = prepareFor(problem, *checker, zeta);
   const PushTime time(cases, options.time);
   const Pose2 object_T_robot =
       problem.request.object.map_T_object.inverse() * problem.request.map_T_robot;
@@ -72,6 +67,15 @@ ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& spac
 }
 
 }  // namespace
+
+std::vector<PreparedCase> prepareFor(const SearchProblem& problem, const PushChecker& checker,
+                                     double zeta) {
+  const double step_m = kStepPerCell * checker.collisions().columns().resolution_m;
+  std::vector<PreparedCase> cases =
+      prepareCases(problem.cases, zeta, step_m, problem.object.radius_m, problem.robot.radius_m);
+  problem.attach_sweeps(&cases);
+  return cases;
+}
 
 SearchClock::SearchClock(double deadline_s, std::function<bool()> stop)
     : begin_(std::chrono::steady_clock::now()), deadline_s_(deadline_s), stop_(std::move(stop)) {}
@@ -92,8 +96,8 @@ PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker, doubl
       space_(makeSpace(checker)),
       definition_(makeDefinition(space_, problem.request)),
       rrt_(makeRrt(problem, space_, checker, zeta)),
-      approach_check_(problem.approaches, checker->collisions(), problem.request.obstacles),
-      path_checker_(checker->collisions()) {
+      checker_(checker),
+      approaches_(problem_, checker->collisions()) {
   rrt_.setProblemDefinition(definition_);
   rrt_.setup();
 }
@@ -103,6 +107,9 @@ PlanSearch::End PlanSearch::run(const SearchClock& clock) {
     if (rrt_.solutions().empty() && !findFirst(clock)) {
       if (clock.isOver()) {
         return End::kStopped;
+      }
+      if (isCutOff()) {
+        return End::kCutOff;
       }
       return rrt_.tree().size() >= problem_.options.max_nodes ? End::kNodeLimit : End::kExhausted;
     }
@@ -121,8 +128,23 @@ PlanSearch::End PlanSearch::run(const SearchClock& clock) {
 }
 
 bool PlanSearch::findFirst(const SearchClock& clock) {
+  // A search that takes so long may have no end: then it is worth while to look at the whole map.
+  constexpr int kQuick = 3000;
+  const int quick = rrt_.extensionCount() + kQuick;
+  rrt_.solve(ob::PlannerTerminationCondition(
+      [this, quick, &clock] { return rrt_.extensionCount() >= quick || clock.isOver(); }));
+  if (!rrt_.solutions().empty() || clock.isOver() || isCutOff()) {
+    return !rrt_.solutions().empty();
+  }
   rrt_.solve(ob::PlannerTerminationCondition([&clock] { return clock.isOver(); }));
   return !rrt_.solutions().empty();
+}
+
+bool PlanSearch::isCutOff() const {
+  const OriginDistance ways(checker_->collisions().columns(), problem_.object.solid,
+                            problem_.request.map_T_goal.position(),
+                            problem_.request.tolerance.position_m);
+  return !std::isfinite(ways.at(problem_.request.object.map_T_object.position()));
 }
 
 void PlanSearch::improve(const SearchClock& clock) {
@@ -161,27 +183,36 @@ std::optional<int> PlanSearch::findUnreachable(const std::vector<int>& chain,
 bool PlanSearch::canApproach(int node) {
   const PushNode& pushed = rrt_.tree().node(node);
   const PushNode& start = rrt_.tree().node(pushed.parent);
-  const PreparedCase& push_case = rrt_.cases()[pushed.push];
-  const Pose2& map_T_object = start.map_T_object;
+  const PreparedCase* previous =
+      start.parent == PushNode::kRoot ? nullptr : &rrt_.cases()[start.push];
+  return approaches_.canApproach(start.map_T_object, previous, rrt_.cases()[pushed.push]);
+}
+
+ApproachVerifier::ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker)
+    : problem_(problem),
+      quick_(problem.approaches, checker, problem.request.obstacles),
+      checker_(checker) {}
+
+bool ApproachVerifier::canApproach(const Pose2& map_T_object, const PreparedCase* previous,
+                                   const PreparedCase& next) {
   const PlacedObject object{"", problem_.request.object.model, map_T_object};
-  const bool is_simple =
-      start.parent == PushNode::kRoot
-          ? approach_check_.canReach(object, problem_.request.map_T_robot, push_case)
-          : approach_check_.canFollow(object, rrt_.cases()[start.push], push_case);
+  const bool is_simple = previous == nullptr
+                             ? quick_.canReach(object, problem_.request.map_T_robot, next)
+                             : quick_.canFollow(object, *previous, next);
   if (is_simple) {
     return true;
   }
-  const Pose2 map_T_robot = start.parent == PushNode::kRoot
-                                ? problem_.request.map_T_robot
-                                : map_T_object * rrt_.cases()[start.push].outcome_T_robot;
+  const Pose2 map_T_robot =
+      previous == nullptr ? problem_.request.map_T_robot : map_T_object * previous->outcome_T_robot;
   std::vector<PlacedSolid> standing = problem_.obstacles;
   standing.push_back({problem_.object.solid, map_T_object});
-  path_checker_.setObstacles(std::move(standing));
+  CollisionChecker checker = checker_;
+  checker.setObstacles(std::move(standing));
   const RobotPath path =
-      problem_.paths.plan(path_checker_, map_T_robot, map_T_object * push_case.robot_begin,
-                          wrapAngle(map_T_object.yaw() + push_case.push_direction_rad));
+      problem_.paths.plan(checker, map_T_robot, map_T_object * next.robot_begin,
+                          wrapAngle(map_T_object.yaw() + next.push_direction_rad));
   if (!path.found) {
-    approach_problem_ = path.explanation;
+    explanation_ = path.explanation;
   }
   return path.found;
 }

@@ -43,13 +43,36 @@ struct SearchProblem {
   ApproachLibrary* approaches;
 };
 
+/// Decides whether the robot can get from push to push.
+class ApproachVerifier {
+ public:
+  ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker);
+
+  /// @param previous  The push that brought the object to `map_T_object`; nullptr for the first.
+  bool canApproach(const Pose2& map_T_object, const PreparedCase* previous,
+                   const PreparedCase& next);
+
+  /// Why the robot could not get to the last push that it could not get to; empty if none.
+  const std::string& problem() const { return explanation_; }
+
+ private:
+  const SearchProblem& problem_;
+  ApproachCheck quick_;
+  CollisionChecker checker_;
+  std::string explanation_;
+};
+
+/// The request's cases, ready for a search with one spread of sigma points.
+std::vector<PreparedCase> prepareFor(const SearchProblem& problem, const PushChecker& checker,
+                                     double zeta);
+
 /// One search with one spread of sigma points: grows an Exp-RRT, compares its solutions by expected
 /// time and verifies that the robot can get to every push of the cheapest.
 class PlanSearch {
  public:
   PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta);
 
-  enum class End { kFound, kExhausted, kNodeLimit, kStopped };
+  enum class End { kFound, kExhausted, kNodeLimit, kStopped, kCutOff };
   End run(const SearchClock& clock);
 
   PushPlan plan() const;  ///< @pre run() returned kFound.
@@ -57,10 +80,11 @@ class PlanSearch {
   const ExpRrt& rrt() const { return rrt_; }
 
   /// Why the robot could not get to a push of a rejected plan; empty if none was rejected.
-  const std::string& approachProblem() const { return approach_problem_; }
+  const std::string& approachProblem() const { return approaches_.problem(); }
 
  private:
   bool findFirst(const SearchClock& clock);
+  bool isCutOff() const;
   void improve(const SearchClock& clock);
   /// The first node of the chain that the robot cannot push to; -1 if there is none; nothing if
   /// the clock ran out.
@@ -72,10 +96,9 @@ class PlanSearch {
   ompl::base::SpaceInformationPtr space_;
   ompl::base::ProblemDefinitionPtr definition_;
   ExpRrt rrt_;
-  ApproachCheck approach_check_;
-  CollisionChecker path_checker_;
+  PushChecker* checker_;
+  ApproachVerifier approaches_;
   std::vector<int> approachable_;  // nodes whose push the robot can get to
-  std::string approach_problem_;
   int solution_ = -1;
 };
 

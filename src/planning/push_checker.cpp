@@ -64,8 +64,7 @@ bool PushChecker::isTolerated(const Pose2& map_T_object) const {
 
 bool PushChecker::collides(const Body& body, const Pose2& map_T_x) {
   ++check_count_;
-  return clearance().at(map_T_x.position()) < body.radius_m &&
-         checker_.collides(*body.footprint, map_T_x);
+  return checker_.collides(*body.footprint, map_T_x);
 }
 
 bool PushChecker::anyCollides(const Body& body, const Pose2& map_T_start,

@@ -9,6 +9,7 @@
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
 #include "casepush/common/violations.h"
+#include "chain_plan.h"
 #include "plan_request.h"
 #include "plan_search.h"
 #include "sweep_library.h"
@@ -45,10 +46,9 @@ void addTree(const ExpRrt& rrt, PlanResult* result) {
   }
 }
 
-std::string solvedText(const PlanSearch& search, const PushPlan& plan, double wanted_zeta) {
+std::string solvedText(double expected_s, const PushPlan& plan, double wanted_zeta) {
   std::string text = std::to_string(plan.pushes.size()) + " pushes over " +
-                     rounded(plan.lengthM(), 1) + " m, about " + rounded(search.expectedS(), 0) +
-                     " s";
+                     rounded(plan.lengthM(), 1) + " m, about " + rounded(expected_s, 0) + " s";
   if (plan.zeta < wanted_zeta) {
     text +=
         "; safe only for zeta " + rounded(plan.zeta, 1) + " instead of " + rounded(wanted_zeta, 1);
@@ -56,17 +56,55 @@ std::string solvedText(const PlanSearch& search, const PushPlan& plan, double wa
   return text;
 }
 
-std::string unreachableText(PlanSearch::End end, const PlanSearch& search, int max_nodes) {
-  std::string text = end == PlanSearch::End::kNodeLimit
-                         ? "no plan within " + std::to_string(max_nodes) +
-                               " poses; raise max_nodes, learn more cases or move the goal"
-                         : "no case leads any farther after " +
-                               std::to_string(search.rrt().tree().size()) +
-                               " poses; clear some space, learn more cases or move the goal";
-  if (!search.approachProblem().empty()) {
-    text += " (the robot could not get to a push: " + search.approachProblem() + ")";
+/// How one search ended, whichever planner made it.
+struct Outcome {
+  PlanSearch::End end = PlanSearch::End::kExhausted;
+  PushPlan plan;
+  double expected_s = 0.0;
+  int nodes = 0;
+  std::string approach_problem;
+};
+
+std::string unreachableText(const Outcome& outcome, int max_nodes) {
+  if (outcome.end == PlanSearch::End::kCutOff) {
+    return "the goal region cannot be reached: walls or furniture block every way of the object to "
+           "it; clear some space or move the goal";
+  }
+  std::string text;
+  if (outcome.end == PlanSearch::End::kNodeLimit) {
+    text = "no plan within " + std::to_string(max_nodes) +
+           " poses; raise max_nodes, learn more cases or move the goal";
+  } else if (outcome.nodes <= 1) {
+    text = "no case can be applied where the object stands; clear some space around it";
+  } else {
+    text = "no case leads any farther after " + std::to_string(outcome.nodes) +
+           " poses; clear some space, learn more cases or move the goal";
+  }
+  if (!outcome.approach_problem.empty()) {
+    text += " (the robot could not get to a push: " + outcome.approach_problem + ")";
   }
   return text;
+}
+
+Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, double zeta,
+                   const SearchClock& clock, PlanResult* result) {
+  Outcome outcome;
+  if (problem.options.planner == PlannerKind::kLattice || isOmpl(problem.options.planner)) {
+    ChainPlan made = planChain(problem, checker, zeta, clock);
+    result->nodes += made.nodes;
+    return {made.end, std::move(made.plan), made.expected_s, made.nodes,
+            std::move(made.approach_problem)};
+  }
+  PlanSearch search(problem, checker, zeta);
+  outcome.end = search.run(clock);
+  addTree(search.rrt(), result);
+  outcome.nodes = search.rrt().tree().size();
+  outcome.approach_problem = search.approachProblem();
+  if (outcome.end == PlanSearch::End::kFound) {
+    outcome.plan = search.plan();
+    outcome.expected_s = search.expectedS();
+  }
+  return outcome;
 }
 
 PlanResult failed(PlanStatus status, std::string explanation) {
@@ -115,6 +153,16 @@ struct PushPlanner::Data {
   std::string chain(PushPlan* plan, const std::vector<Case>& cases,
                     PushChecker* push_checker) const;
 };
+
+PushPlannerOptions PushPlannerOptions::forPlanner(PlannerKind kind) {
+  PushPlannerOptions options;
+  options.planner = kind;
+  if (kind == PlannerKind::kExpRrtPaper) {
+    options.similarity = Similarity::kPaper;
+    options.goal_bias = 0.95;
+  }
+  return options;
+}
 
 void PushPlannerOptions::validate() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -225,17 +273,15 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
                               approaches.get()};
   PlanResult result;
   for (const double zeta : zetaLevels(options.zeta)) {
-    PlanSearch search(problem, &push_checker, zeta);
-    const PlanSearch::End end = search.run(clock);
-    addTree(search.rrt(), &result);
+    const Outcome outcome = searchOnce(problem, &push_checker, zeta, clock, &result);
     result.collision_checks = push_checker.checkCount();
-    if (end == PlanSearch::End::kFound) {
+    if (outcome.end == PlanSearch::End::kFound) {
       result.status = PlanStatus::kSolved;
-      result.plan = search.plan();
-      result.explanation = solvedText(search, result.plan, options.zeta);
+      result.plan = outcome.plan;
+      result.explanation = solvedText(outcome.expected_s, result.plan, options.zeta);
       return result;
     }
-    if (end == PlanSearch::End::kStopped) {
+    if (outcome.end == PlanSearch::End::kStopped) {
       const bool cancelled = clock.isCancelled();
       result.status = cancelled ? PlanStatus::kCancelled : PlanStatus::kDeadline;
       result.explanation = cancelled ? "cancelled while planning"
@@ -244,7 +290,10 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
       return result;
     }
     result.status = PlanStatus::kUnreachable;
-    result.explanation = unreachableText(end, search, options.max_nodes);
+    result.explanation = unreachableText(outcome, options.max_nodes);
+    if (outcome.end == PlanSearch::End::kCutOff) {
+      return result;  // With no spread of outcomes either.
+    }
   }
   return result;
 }

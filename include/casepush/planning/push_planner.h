@@ -10,6 +10,7 @@
 #include "casepush/model/object_model.h"
 #include "casepush/model/push_plan.h"
 #include "casepush/model/robot_model.h"
+#include "casepush/planning/planner_kind.h"
 #include "casepush/planning/push_time.h"
 #include "casepush/planning/robot_path_planner.h"
 #include "casepush/planning/similarity.h"
@@ -18,6 +19,7 @@
 namespace casepush {
 
 struct PushPlannerOptions {
+  PlannerKind planner = PlannerKind::kExpRrt;  ///< kExpRrtPaper: see forPlanner().
   Similarity similarity = Similarity::kMetric;
   double goal_bias = 0.2;              ///< Probability that the sample is the goal (paper: 0.95).
   int max_nodes = 50625;               ///< Paper section 6.
@@ -27,8 +29,11 @@ struct PushPlannerOptions {
   int solutions = 16;                  ///< Solutions to compare before the cheapest is returned.
   int improvement_extensions = 20000;  ///< Search for cheaper plans after the first one.
   double spacing_m = 0.1;  ///< Of tree nodes nearer than this only the cheaper one grows.
-  PushTimeOptions time;  ///< What the robot's way between pushes costs.
+  PushTimeOptions time;    ///< What the robot's way between pushes costs.
   RobotPathOptions robot_path;
+
+  /// Options of a planner: those of the paper for kExpRrtPaper, else the defaults.
+  static PushPlannerOptions forPlanner(PlannerKind kind);
   void validate() const;  ///< @throws InputError listing every violation.
 };
 

@@ -1,0 +1,110 @@
+#include "chain_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "origin_distance.h"
+
+namespace casepush {
+namespace {
+
+constexpr int kAttempts = 30;
+
+/// A push that the robot cannot get to.
+struct Ban {
+  Pose2 map_T_object;
+  int previous;
+  int push;
+
+  bool operator==(const Ban& other) const {
+    return map_T_object.x() == other.map_T_object.x() &&
+           map_T_object.y() == other.map_T_object.y() &&
+           map_T_object.yaw() == other.map_T_object.yaw() && previous == other.previous &&
+           push == other.push;
+  }
+};
+
+PushPlan makePlan(const SearchProblem& problem, const std::vector<PreparedCase>& cases,
+                  const std::vector<int>& pushes, double zeta) {
+  PushPlan plan;
+  plan.object = problem.request.object;
+  plan.map_T_goal = problem.request.map_T_goal;
+  plan.tolerance = problem.request.tolerance;
+  plan.zeta = zeta;
+  Pose2 pose = plan.object.map_T_object;
+  for (const int push : pushes) {
+    plan.pushes.push_back({cases[push].id, pose, transform(pose, cases[push].start_outcome)});
+    pose = pose * cases[push].start_outcome.mean;
+  }
+  return plan;
+}
+
+}  // namespace
+
+ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double zeta,
+                    const SearchClock& clock) {
+  const PlanRequest& request = problem.request;
+  const std::vector<PreparedCase> cases = prepareFor(problem, *checker, zeta);
+  const PushTime time(cases, problem.options.time);
+  ChainPlan made;
+  const bool is_lattice = problem.options.planner == PlannerKind::kLattice;
+  const OriginDistance map(checker->collisions().columns(), problem.object.solid,
+                           request.map_T_goal.position(), request.tolerance.position_m);
+  if (!std::isfinite(map.at(request.object.map_T_object.position()))) {
+    made.end = PlanSearch::End::kCutOff;
+    return made;
+  }
+  LatticeOptions lattice;
+  if (problem.options.improvement_extensions == 0) lattice.weights.resize(1);
+  ApproachVerifier approaches(problem, checker->collisions());
+  std::vector<Ban> banned;
+  const auto stop = [&clock] { return clock.isOver(); };
+  for (int attempt = 0; attempt < kAttempts && !clock.isOver(); ++attempt) {
+    const ChainProblem chain{cases,
+                             time,
+                             *checker,
+                             request.object.map_T_object,
+                             request.map_T_goal,
+                             request.tolerance,
+                             request.map_T_robot,
+                             problem.object.gyration_radius_m,
+                             problem.options.max_nodes,
+                             request.seed};
+    const auto is_banned = [&banned](const Pose2& pose, int previous, int push) {
+      return std::find(banned.begin(), banned.end(), Ban{pose, previous, push}) != banned.end();
+    };
+    const ChainResult result = is_lattice ? searchLattice(chain, lattice, map, is_banned, stop)
+                                          : searchWithOmpl(problem.options.planner, chain, stop);
+    made.nodes += result.nodes;
+    if (!result.found) {
+      made.end = clock.isOver()     ? PlanSearch::End::kStopped
+                 : result.exhausted ? PlanSearch::End::kExhausted
+                                    : PlanSearch::End::kNodeLimit;
+      return made;
+    }
+    Pose2 pose = request.object.map_T_object;
+    int previous = -1;
+    bool reachable = true;
+    for (const int push : result.pushes) {
+      if (!approaches.canApproach(pose, previous < 0 ? nullptr : &cases[previous], cases[push])) {
+        banned.push_back({pose, previous, push});
+        reachable = false;
+        break;
+      }
+      pose = pose * cases[push].start_outcome.mean;
+      previous = push;
+    }
+    if (!reachable) continue;
+    made.end = PlanSearch::End::kFound;
+    made.plan = makePlan(problem, cases, result.pushes, zeta);
+    made.expected_s = result.cost_s;
+    made.bound = result.bound;
+    return made;
+  }
+  made.approach_problem = approaches.problem();
+  made.end = clock.isOver() ? PlanSearch::End::kStopped : PlanSearch::End::kExhausted;
+  return made;
+}
+
+}  // namespace casepush

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "chain_search.h"
+#include "plan_search.h"
+
+namespace casepush {
+
+/// What a search other than Exp-RRT came to.
+struct ChainPlan {
+  PlanSearch::End end = PlanSearch::End::kExhausted;
+  PushPlan plan;
+  double expected_s = 0.0;
+  double bound = 0.0;  ///< See ChainResult.
+  int nodes = 0;
+  std::string approach_problem;
+};
+
+/// Searches with the lattice or an OMPL planner until the robot can get to every push of a chain.
+ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double zeta,
+                    const SearchClock& clock);
+
+}  // namespace casepush
