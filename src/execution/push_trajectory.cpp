@@ -3,13 +3,12 @@
 
 #include "casepush/common/violations.h"
 #include "casepush/execution/execute_push.h"
+#include "casepush/model/motion_direction.h"
 
 namespace casepush {
 namespace {
 
 constexpr double kLongestS = 60.0;
-// Motion beyond localisation noise, from which the direction of a push can be told.
-constexpr double kNoticeableM = 0.05;
 
 struct Position {
   std::size_t index;
@@ -73,14 +72,8 @@ Twist2 PushTrajectory::actionAt(double t_s) const {
 }
 
 double PushTrajectory::startDirectionRad() const {
-  const Eigen::Vector2d origin = start_T_robot.front().position();
-  Eigen::Vector2d motion = start_T_robot.back().position() - origin;
-  for (const Pose2& pose : start_T_robot) {
-    if ((pose.position() - origin).norm() > kNoticeableM) {
-      motion = pose.position() - origin;
-      break;
-    }
-  }
+  if (const std::optional<double> direction = motionDirection(start_T_robot)) return *direction;
+  const Eigen::Vector2d motion = start_T_robot.back().position() - start_T_robot.front().position();
   return motion.norm() > 1e-6 ? std::atan2(motion.y(), motion.x()) : start_T_robot.front().yaw();
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "casepush/common/input_error.h"
+#include "casepush/model/motion_direction.h"
 
 namespace casepush {
 namespace {
@@ -185,17 +186,10 @@ void validateCase(const Case& push_case, const std::string& where) {
 }
 
 double pushDirection(const Case& push_case) {
-  // Far enough that neither the noise of the poses nor a correction at the start decides.
-  constexpr double kClearMotionM = 0.05;
-  const Eigen::Vector2d start = push_case.steps.front().start_T_robot().position();
-  for (const CaseStep& step : push_case.steps) {
-    const Eigen::Vector2d motion = step.start_T_robot().position() - start;
-    if (motion.norm() > kClearMotionM) {
-      return std::atan2(motion.y(), motion.x());
-    }
-  }
+  std::vector<Pose2> poses;
+  for (const CaseStep& step : push_case.steps) poses.push_back(step.start_T_robot());
   // A push that only turns: towards the object.
-  return std::atan2(-start.y(), -start.x());
+  return motionDirection(poses).value_or(std::atan2(-poses.front().y(), -poses.front().x()));
 }
 
 bool isFor(const Case& push_case, const std::string& object, const std::string& robot) {

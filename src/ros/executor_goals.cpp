@@ -40,8 +40,9 @@ void reject(GoalHandle& goal, std::uint8_t status, const std::string& explanatio
 
 std::vector<Case> ExecutorNode::casesOf(const std::string& model) const {
   std::vector<Case> found;
-  std::copy_if(cases_.begin(), cases_.end(), std::back_inserter(found),
-               [&model](const Case& each) { return each.object == model; });
+  std::copy_if(cases_.begin(), cases_.end(), std::back_inserter(found), [&](const Case& each) {
+    return isFor(each, model, parameters_.furnishing.robot.name);
+  });
   return found;
 }
 

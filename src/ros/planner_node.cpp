@@ -2,7 +2,6 @@
 
 #include <tf2/exceptions.h>
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -122,10 +121,6 @@ PlanResult PlannerNode::plan(const PlanPushGoal& goal) {
     return invalid("there is no map yet (topic survey, or parameter map_file)");
   }
   const PlanRequest complete = request(goal);
-  cases.erase(std::remove_if(
-                  cases.begin(), cases.end(),
-                  [&complete](const Case& each) { return each.object != complete.object.model; }),
-              cases.end());
   const auto start = std::chrono::steady_clock::now();
   double next_feedback_s = 0.0;
   const auto stop = [&] {

@@ -31,6 +31,7 @@ void addPushCommand(CLI::App& app, Run& run);
 void addCasesCommand(CLI::App& app, Run& run);
 void addWorldCommand(CLI::App& app, Run& run);
 void addBenchCommand(CLI::App& app, Run& run);
+void addPlanBench(CLI::App& bench, Run& run);  ///< Of addBenchCommand().
 
 /// A finite number in [low, high]: unlike CLI::Range, no NaN.
 CLI::Validator finiteIn(double low, double high);

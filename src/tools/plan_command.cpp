@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "casepush/common/input_error.h"
+#include "casepush/lab/plan_verification.h"
 #include "command.h"
 #include "task_arguments.h"
 
@@ -10,7 +11,9 @@ namespace {
 struct PlanArguments {
   TaskArguments task;
   double deadline_s = 10.0;
+  std::string planner = "exp_rrt";
   bool paper = false;
+  bool verify = false;
 };
 
 PlanRequest makeRequest(const Task& task, const PlanArguments& arguments) {
@@ -45,14 +48,21 @@ bool isBadRequest(PlanStatus status) {
   }
 }
 
+PlanVerification verify(const Task& task, const PlanRequest& request, const PushPlan& plan) {
+  std::vector<PlacedSolid> obstacles;
+  const std::map<std::string, ObjectModel> models = loadModels(task);
+  for (const PlacedObject& obstacle : request.obstacles) {
+    obstacles.push_back({models.at(obstacle.model).solid, obstacle.map_T_object, obstacle.id});
+  }
+  return verifyPlan(*task.map, obstacles, models.at(request.object.model),
+                    task.catalog.robot(task.problem.world.robot), plan, task.cases);
+}
+
 int plan(const PlanArguments& arguments) {
   const Stopwatch watch;
   const Task task = prepareTask(arguments.task);
-  PushPlannerOptions options;
-  if (arguments.paper) {
-    options.similarity = Similarity::kPaper;
-    options.goal_bias = 0.95;
-  }
+  const PlannerKind kind = plannerKind(arguments.paper ? "exp_rrt_paper" : arguments.planner);
+  const PushPlannerOptions options = PushPlannerOptions::forPlanner(kind);
   const PushPlanner planner(task.map, task.catalog.robot(task.problem.world.robot),
                             task.catalog.objectsIn(task.problem.world), options);
   const PlanRequest request = makeRequest(task, arguments);
@@ -67,9 +77,19 @@ int plan(const PlanArguments& arguments) {
                       {"outcome", poseJson(push.map_outcome.mean)}});
   }
   const bool solved = result.status == PlanStatus::kSolved;
-  printResult({{"success", solved},
+  nlohmann::ordered_json verification;
+  bool valid = true;
+  if (solved && arguments.verify) {
+    const PlanVerification verified = verify(task, request, result.plan);
+    valid = verified.valid;
+    verification = {{"valid", verified.valid},
+                    {"poses", verified.poses},
+                    {"explanation", verified.explanation}};
+  }
+  printResult({{"success", solved && valid},
                {"status", toString(result.status)},
                {"explanation", result.explanation},
+               {"planner", toString(kind)},
                {"pushes", result.plan.pushes.size()},
                {"plan_length_m", result.plan.lengthM()},
                {"nodes", result.nodes},
@@ -77,10 +97,11 @@ int plan(const PlanArguments& arguments) {
                {"start", poseJson(request.object.map_T_object)},
                {"goal", poseJson(request.map_T_goal)},
                {"plan", pushes},
+               {"verification", verification},
                {"seed", arguments.task.common.seed},
                {"timing", {{"wall_s", watch.seconds()}, {"planning_s", result.planning_s}}}},
               arguments.task.common.json);
-  return solved ? kExitSuccess : kExitTaskFailed;
+  return solved && valid ? kExitSuccess : kExitTaskFailed;
 }
 
 }  // namespace
@@ -92,8 +113,14 @@ void addPlanCommand(CLI::App& app, Run& run) {
   command->add_option("--deadline", arguments->deadline_s, "Wall seconds for planning")
       ->check(finiteIn(0.001, 3600.0))
       ->capture_default_str();
-  command->add_flag("--paper", arguments->paper,
-                    "Similarity of the paper's eq. 3 and its goal bias of 0.95");
+  command
+      ->add_option("--planner", arguments->planner,
+                   "exp_rrt, exp_rrt_paper, lattice, or one of OMPL's over the same cases: "
+                   "ompl_rrt, ompl_sst, ompl_est, ompl_pdst, ompl_kpiece")
+      ->capture_default_str();
+  command->add_flag("--verify", arguments->verify,
+                    "Test the plan once more with FCL on the OctoMap, slowly and independently");
+  command->add_flag("--paper", arguments->paper, "The same as --planner exp_rrt_paper");
   command->callback([arguments, &run] { run = [arguments] { return plan(*arguments); }; });
 }
 

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "casepush/model/case.h"
+#include "casepush/model/catalog.h"
+#include "casepush/planning/planner_kind.h"
+
+namespace casepush {
+
+struct PlanBenchmarkOptions {
+  std::string object = "office_chair";
+  std::string world = "office";
+  std::vector<PlannerKind> planners = allPlannerKinds();
+  int problems = 30;
+  double deadline_s = 10.0;  ///< For each plan.
+  bool improve = false;      ///< Let planners go on after their first solution.
+  std::uint64_t seed = 1;
+  void validate() const;  ///< @throws InputError listing every violation.
+};
+
+/// One planner on one problem.
+struct PlanRun {
+  bool solved = false;
+  double planning_s = 0.0;  ///< Wall time of the whole call, the robot's paths included.
+  int pushes = 0;
+  double length_m = 0.0;
+  int nodes = 0;
+};
+
+struct PlanBenchmark {
+  std::vector<PlannerKind> planners;
+  std::vector<std::vector<PlanRun>> runs;  ///< Of each planner, for each problem.
+};
+
+/// Random problems that a robot that drives could solve, each given to every planner in turn. A
+/// first call without measuring makes the masks, which planners of one object share.
+/// @param cases  Of the object, learnt by the world's robot.
+/// @param progress  Called with the number of finished problems.
+/// @throws InputError from the catalog, the world or validate().
+PlanBenchmark comparePlanners(const Catalog& catalog, const std::vector<Case>& cases,
+                              const PlanBenchmarkOptions& options,
+                              const std::function<void(int)>& progress = {});
+
+/// In the format of OMPL's benchmark logs, which `ompl_benchmark_statistics.py` and Planner Arena
+/// read.
+void writeOmplLog(const PlanBenchmark& benchmark, const PlanBenchmarkOptions& options,
+                  std::ostream& out);
+
+}  // namespace casepush

@@ -1,0 +1,128 @@
+#include "casepush/lab/plan_benchmark.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <sstream>
+
+#include "casepush/common/input_error.h"
+#include "casepush/lab/push_run.h"
+#include "casepush/world/static_map.h"
+
+namespace casepush {
+namespace {
+
+PlanRequest requestFor(const Catalog& catalog, const PushProblem& problem, std::uint64_t seed,
+                       double deadline_s) {
+  PlanRequest request;
+  for (const ObjectPlacement& placement : problem.world.objects) {
+    const PlacedObject placed{placement.id, catalog.object(placement.model).name,
+                              placement.map_T_object};
+    if (placement.id == problem.object_id) {
+      request.object = placed;
+    } else {
+      request.obstacles.push_back(placed);
+    }
+  }
+  request.map_T_goal = problem.map_T_goal;
+  request.map_T_robot = problem.world.map_T_robot;
+  request.seed = seed;
+  request.deadline_s = deadline_s;
+  return request;
+}
+
+PushPlannerOptions optionsFor(PlannerKind kind, bool improve) {
+  PushPlannerOptions options = PushPlannerOptions::forPlanner(kind);
+  if (!improve) {
+    options.solutions = 1;
+    options.improvement_extensions = 0;
+  }
+  return options;
+}
+
+PlanRun run(const PushPlanner& planner, const PlanRequest& request,
+            const std::vector<Case>& cases) {
+  const PlanResult result = planner.plan(request, cases);
+  PlanRun run;
+  run.solved = result.status == PlanStatus::kSolved;
+  run.planning_s = result.planning_s;
+  run.pushes = static_cast<int>(result.plan.pushes.size());
+  run.length_m = result.plan.lengthM();
+  run.nodes = result.nodes;
+  return run;
+}
+
+}  // namespace
+
+void PlanBenchmarkOptions::validate() const {
+  std::ostringstream violations;
+  if (problems < 1 || problems > 10000) {
+    violations << "problems is " << problems << ", must be in [1, 10000]; ";
+  }
+  if (!(deadline_s >= 0.01 && deadline_s <= 3600.0)) {
+    violations << "deadline_s is " << deadline_s << ", must be in [0.01, 3600]; ";
+  }
+  if (planners.empty()) violations << "no planner is given; ";
+  const std::string text = violations.str();
+  if (!text.empty()) throw InputError("plan benchmark", text.substr(0, text.size() - 2));
+}
+
+PlanBenchmark comparePlanners(const Catalog& catalog, const std::vector<Case>& cases,
+                              const PlanBenchmarkOptions& options,
+                              const std::function<void(int)>& progress) {
+  options.validate();
+  const WorldModel world = loadWorld(catalog, options.world);
+  const std::shared_ptr<const Map> map = surveyMap(world);
+  std::map<std::string, ObjectModel> models;
+  const auto add = [&](const std::string& name) {
+    ObjectModel model = catalog.object(name);
+    models.emplace(model.name, model);
+  };
+  add(options.object);
+  for (const ObjectPlacement& placement : world.objects) add(placement.model);
+  std::vector<std::unique_ptr<PushPlanner>> planners;
+  for (const PlannerKind kind : options.planners) {
+    planners.push_back(std::make_unique<PushPlanner>(map, catalog.robot(world.robot), models,
+                                                     optionsFor(kind, options.improve)));
+  }
+  PlanBenchmark benchmark;
+  benchmark.planners = options.planners;
+  benchmark.runs.resize(planners.size());
+  for (int i = 0; i < options.problems; ++i) {
+    if (progress) progress(i);
+    const std::uint64_t seed = options.seed * 100000 + static_cast<std::uint64_t>(i);
+    const PushProblem problem = randomProblem(catalog, world, options.object, seed);
+    const PlanRequest request = requestFor(catalog, problem, seed, options.deadline_s);
+    for (std::size_t k = 0; k < planners.size(); ++k) {
+      run(*planners[k], request, cases);  // Makes the masks.
+      benchmark.runs[k].push_back(run(*planners[k], request, cases));
+    }
+  }
+  return benchmark;
+}
+
+void writeOmplLog(const PlanBenchmark& benchmark, const PlanBenchmarkOptions& options,
+                  std::ostream& out) {
+  out << "OMPL version 1.5.2\nExperiment " << options.object << "_in_" << options.world
+      << "\nRunning on this computer\nStarting at 2000-Jan-01 00:00:00\n"
+      << "<<<|\nRandom start and goal poses, one problem for each run, seed " << options.seed
+      << "\n|>>>\n<<<|\nunknown CPU\n|>>>\n"
+      << options.seed << " is the random seed\n"
+      << options.deadline_s << " seconds per run\n0 MB per run\n"
+      << benchmark.runs.front().size() << " runs per planner\n0 seconds spent to collect the data\n"
+      << "0 enum types\n"
+      << benchmark.planners.size() << " planners\n";
+  for (std::size_t k = 0; k < benchmark.planners.size(); ++k) {
+    out << toString(benchmark.planners[k]) << "\n0 common properties\n5 properties for each run\n"
+        << "solved BOOLEAN\ntime REAL\nsolution segments INTEGER\nsolution length REAL\n"
+        << "graph states INTEGER\n"
+        << benchmark.runs[k].size() << " runs\n";
+    for (const PlanRun& each : benchmark.runs[k]) {
+      out << (each.solved ? 1 : 0) << "; " << each.planning_s << "; " << each.pushes << "; "
+          << each.length_m << "; " << each.nodes << ";\n";
+    }
+    out << ".\n";
+  }
+}
+
+}  // namespace casepush

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <fstream>
+#include <memory>
+
+#include "casepush/cases/case_base.h"
+#include "casepush/common/input_error.h"
+#include "casepush/lab/plan_benchmark.h"
+#include "command.h"
+
+namespace casepush {
+namespace {
+
+struct PlanBenchArguments {
+  CommonOptions common;
+  PlanBenchmarkOptions options;
+  std::string case_base;
+  std::string log;
+  std::vector<std::string> planners;
+};
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(share * last + 0.5)];
+}
+
+nlohmann::ordered_json plannerJson(PlannerKind kind, const std::vector<PlanRun>& runs) {
+  std::vector<double> times_s;
+  std::vector<double> pushes;
+  std::vector<double> nodes;
+  int solved = 0;
+  for (const PlanRun& run : runs) {
+    times_s.push_back(run.planning_s);  // A problem that is not solved costs what it cost.
+    nodes.push_back(run.nodes);
+    if (!run.solved) continue;
+    ++solved;
+    pushes.push_back(run.pushes);
+  }
+  return {{"planner", toString(kind)},
+          {"success", static_cast<double>(solved) / static_cast<double>(runs.size())},
+          {"median_s", quantile(times_s, 0.5)},
+          {"p90_s", quantile(times_s, 0.9)},
+          {"max_s", quantile(times_s, 1.0)},
+          {"pushes", quantile(pushes, 0.5)},
+          {"nodes", quantile(nodes, 0.5)}};
+}
+
+int benchPlan(const PlanBenchArguments& arguments) {
+  const Stopwatch watch;
+  PlanBenchmarkOptions options = arguments.options;
+  options.seed = arguments.common.seed;
+  if (!arguments.planners.empty()) {
+    options.planners.clear();
+    for (const std::string& name : arguments.planners) {
+      options.planners.push_back(plannerKind(name));
+    }
+  }
+  const CaseBase base(arguments.case_base, CaseBase::Access::kReadOnly);
+  ProgressLine line;
+  const PlanBenchmark measured =
+      comparePlanners(Catalog::standard(), base.cases(options.object), options, [&](int problem) {
+        line.show("problem " + std::to_string(problem + 1) + "/" +
+                  std::to_string(options.problems));
+      });
+  if (!arguments.log.empty()) {
+    std::ofstream log(arguments.log);
+    writeOmplLog(measured, options, log);
+    if (!log.flush()) throw InputError(arguments.log, "cannot be written");
+  }
+  nlohmann::ordered_json planners = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < measured.planners.size(); ++i) {
+    planners.push_back(plannerJson(measured.planners[i], measured.runs[i]));
+  }
+  printResult({{"success", true},
+               {"object", options.object},
+               {"world", options.world},
+               {"problems", options.problems},
+               {"seed", arguments.common.seed},
+               {"planners", planners},
+               {"timing", {{"wall_s", watch.seconds()}}}},
+              arguments.common.json);
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void addPlanBench(CLI::App& bench, Run& run) {
+  auto arguments = std::make_shared<PlanBenchArguments>();
+  CLI::App* command = bench.add_subcommand(
+      "plan", "Compare planners on random problems: time to the first plan, its pushes and nodes");
+  addCommonOptions(*command, arguments->common);
+  PlanBenchmarkOptions& options = arguments->options;
+  command->add_option("--object", options.object, "Object by name or URDF file")
+      ->capture_default_str();
+  command->add_option("--world", options.world, "World by name or YAML file")
+      ->capture_default_str();
+  command->add_option("--case-base", arguments->case_base, "SQLite file with the object's cases")
+      ->required()
+      ->check(notEmpty());
+  command->add_option("--planners", arguments->planners,
+                      "Which to compare, as in plan --planner; default: all");
+  command->add_option("--problems", options.problems, "Random problems")->capture_default_str();
+  command->add_option("--deadline", options.deadline_s, "Wall seconds for each plan")
+      ->capture_default_str();
+  command->add_flag("--improve", options.improve,
+                    "Let planners improve their first plan, as casepush push does");
+  command->add_option("--log", arguments->log,
+                      "Also write an OMPL benchmark log, for Planner Arena");
+  command->callback([arguments, &run] { run = [arguments] { return benchPlan(*arguments); }; });
+}
+
+}  // namespace casepush

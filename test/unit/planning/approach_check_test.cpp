@@ -1,0 +1,74 @@
+#include "planning/approach_check.h"
+
+#include <gtest/gtest.h>
+
+#include "planning/furnished_room.h"
+#include "planning/origin_distance.h"
+#include "planning/synthetic_pushes.h"
+
+namespace casepush {
+namespace {
+
+struct Scene {
+  explicit Scene(const WorldModel& world) : map(mapOf(world)), checker(*map) {}
+
+  std::shared_ptr<const Map> map;
+  CollisionChecker checker;
+  RobotModel robot = testRobot();
+  ObjectModels objects = {{"chair", testChair()}};
+  RobotPathOptions options;
+};
+
+// What the quick check says yes to, the path planner must find.
+TEST(ApproachCheck, isSufficient) {
+  Scene scene(furnishedRoom());
+  const RobotPathPlanner paths(scene.robot, scene.options);
+  ApproachLibrary library(scene.checker, scene.robot, scene.objects, scene.options);
+  ApproachCheck check(&library, scene.checker, {});
+  const auto object = scene.checker.footprint(testChair().solid);
+  const std::vector<PreparedCase> cases =
+      prepareCases(syntheticPushes(6, 5), 0.0, 0.025, testChair().radius_m, scene.robot.radius_m);
+  Random random(4);
+  int accepted = 0;
+  int found = 0;
+  for (int i = 0; i < 150; ++i) {
+    const Pose2 pose = randomFreePose(scene.checker, *object, &random);
+    const PreparedCase& previous = cases[random.below(cases.size())];
+    const PreparedCase& next = cases[random.below(cases.size())];
+    CollisionChecker standing = scene.checker;
+    standing.setObstacles({{testChair().solid, pose}});
+    const bool truth = paths
+                           .plan(standing, pose * previous.outcome_T_robot, pose * next.robot_begin,
+                                 pose.yaw() + next.push_direction_rad)
+                           .found;
+    const bool quick = check.canFollow({"", "chair", pose}, previous, next);
+    EXPECT_TRUE(truth || !quick) << pose.x() << " " << pose.y();
+    accepted += quick;
+    found += truth;
+  }
+  EXPECT_GT(accepted, found / 2);
+  EXPECT_LT(found, 150);
+}
+
+TEST(OriginDistance, isALowerBoundAndSeesWalls) {
+  Scene scene(furnishedRoom());
+  const Eigen::Vector2d goal(11.5, 3.0);
+  const OriginDistance map(scene.checker.columns(), testChair().solid, goal, 0.2);
+  EXPECT_LE(map.at({11.0, 1.5}), (Eigen::Vector2d(11.0, 1.5) - goal).norm());
+  // From the other side of the southern partition the way leads around it.
+  const double straight_m = (Eigen::Vector2d(5.0, 2.0) - goal).norm();
+  EXPECT_GT(map.at({5.0, 2.0}), straight_m + 0.3);
+  EXPECT_NEAR(map.at(goal), 0.0, 1e-9);
+}
+
+TEST(OriginDistance, isInfiniteBehindClosedWalls) {
+  WorldModel world = emptyRoom();
+  world.boxes.push_back(standing("wall", 7.5, 7.5, 0.2, 15.0, 1.5));
+  Scene scene(world);
+  const OriginDistance map(scene.checker.columns(), testChair().solid, {11.0, 7.0}, 0.2);
+  EXPECT_TRUE(std::isinf(map.at({4.0, 7.0})));
+  EXPECT_FALSE(std::isinf(map.at({9.0, 7.0})));
+}
+
+}  // namespace
+}  // namespace casepush

@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include "planning/planner_fixture.h"
+
+namespace casepush {
+namespace {
+
+/// A promise that every planner keeps.
+class PlannerKindsTest : public testing::TestWithParam<PlannerKind> {
+ protected:
+  PlannerKindsTest() : cases_(syntheticPushes(14, 7)) {}
+
+  PushPlannerOptions options() const {
+    PushPlannerOptions options = PushPlannerOptions::forPlanner(GetParam());
+    options.improvement_extensions = 500;
+    return options;
+  }
+
+  std::vector<Case> cases_;
+};
+
+PlanRequest shortRequest() { return requestFor(Pose2(4.0, 4.0, 0.0), Pose2(6.0, 4.5, 0.4)); }
+
+TEST_P(PlannerKindsTest, chainsOutcomesIntoTheGoal) {
+  const auto planner = plannerFor(emptyRoom(), options());
+  const PlanRequest request = shortRequest();
+  const PlanResult result = planner->plan(request, cases_);
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.explanation;
+  Pose2 pose = request.object.map_T_object;
+  for (const PlannedPush& push : result.plan.pushes) {
+    EXPECT_NEAR(distance(push.map_T_start, pose), 0.0, 1e-9);
+    pose = push.map_outcome.mean;
+  }
+  EXPECT_TRUE(request.tolerance.isMet(request.map_T_goal, pose));
+  const auto rest = planner->continuePlan(result.plan, request.object.map_T_object, cases_, {});
+  EXPECT_TRUE(rest.valid) << rest.explanation;
+  EXPECT_GT(result.nodes, 0);
+}
+
+TEST_P(PlannerKindsTest, staysWhereItIsWhenAtTheGoal) {
+  const auto planner = plannerFor(emptyRoom(), options());
+  PlanRequest request = shortRequest();
+  request.map_T_goal = Pose2(4.05, 4.0, 0.05);
+  const PlanResult result = planner->plan(request, cases_);
+  EXPECT_EQ(result.status, PlanStatus::kSolved) << result.explanation;
+  EXPECT_TRUE(result.plan.pushes.empty());
+}
+
+TEST_P(PlannerKindsTest, endsWhenCancelled) {
+  const auto planner = plannerFor(furnishedRoom(), options());
+  int asked = 0;
+  const PlanResult result =
+      planner->plan(requestFor(kStart, kGoal), cases_, [&asked] { return ++asked > 20; });
+  EXPECT_EQ(result.status, PlanStatus::kCancelled) << result.explanation;
+}
+
+TEST_P(PlannerKindsTest, noticesAGoalBehindWalls) {
+  WorldModel world = emptyRoom();
+  for (int side = 0; side < 4; ++side) {
+    const bool across = side % 2 == 0;
+    const double off = side < 2 ? 1.5 : -1.5;
+    world.boxes.push_back(standing("cell_" + std::to_string(side), 11.0 + (across ? off : 0.0),
+                                   11.0 + (across ? 0.0 : off), across ? 0.1 : 3.1,
+                                   across ? 3.1 : 0.1, 1.5));
+  }
+  const auto planner = plannerFor(world, options());
+  const PlanResult result = planner->plan(requestFor(kStart, Pose2(11.0, 11.0, 0.0)), cases_);
+  EXPECT_EQ(result.status, PlanStatus::kUnreachable);
+  EXPECT_NE(result.explanation.find("goal region cannot be reached"), std::string::npos)
+      << result.explanation;
+  EXPECT_LT(result.nodes, 8000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planners, PlannerKindsTest, testing::ValuesIn(allPlannerKinds()),
+                         [](const auto& instance) { return toString(instance.param); });
+
+TEST(CaseLattice, isDeterministicAndCheaperWithMoreSearch) {
+  PushPlannerOptions options = PushPlannerOptions::forPlanner(PlannerKind::kLattice);
+  const auto patient = plannerFor(furnishedRoom(), options);
+  options.improvement_extensions = 0;
+  const auto quick_one = plannerFor(furnishedRoom(), options);
+  const std::vector<Case> cases = syntheticPushes(14, 7);
+  const PlanRequest request = requestFor(kStart, kGoal);
+  const PlanResult first = quick_one->plan(request, cases);
+  const PlanResult again = quick_one->plan(request, cases);
+  const PlanResult best = patient->plan(request, cases);
+  ASSERT_EQ(first.status, PlanStatus::kSolved) << first.explanation;
+  ASSERT_EQ(best.status, PlanStatus::kSolved) << best.explanation;
+  EXPECT_EQ(first.nodes, again.nodes);
+  EXPECT_EQ(first.explanation, again.explanation);
+  EXPECT_LE(best.plan.pushes.size(), first.plan.pushes.size());
+  EXPECT_GT(best.nodes, first.nodes);
+}
+
+TEST(PlannerKind, namesAreReadBackAndOthersRefused) {
+  for (const PlannerKind kind : allPlannerKinds()) EXPECT_EQ(plannerKind(toString(kind)), kind);
+  try {
+    plannerKind("astar");
+    FAIL();
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("lattice"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace casepush
