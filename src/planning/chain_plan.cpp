@@ -57,6 +57,12 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double z
   }
   LatticeOptions lattice;
   if (problem.options.improvement_extensions == 0) lattice.weights.resize(1);
+  if (request.tolerance.isMet(request.map_T_goal, request.object.map_T_object)) {
+    made.end = PlanSearch::End::kFound;
+    made.plan = makePlan(problem, cases, {}, zeta);
+    made.nodes = 1;
+    return made;
+  }
   ApproachVerifier approaches(problem, checker->collisions());
   std::vector<Ban> banned;
   const auto stop = [&clock] { return clock.isOver(); };

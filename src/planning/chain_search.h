@@ -32,7 +32,7 @@ struct ChainResult {
   std::vector<int> pushes;  ///< Indices into the cases.
   double cost_s = 0.0;      ///< Expected time.
   double bound = 0.0;       ///< The cost is at most this times the best one's; 0: no bound known.
-  int nodes = 0;
+  int nodes = 0;            ///< Poses reached; with OMPL every safe push that it tried.
 };
 
 /// One of OMPL's stock control planners with the case as the control. Its random numbers are
