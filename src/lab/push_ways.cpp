@@ -14,8 +14,13 @@ namespace casepush {
 namespace {
 
 constexpr double kStep_m = 0.2;
-constexpr double kMargin_m = 0.02;
+constexpr double kObjectMargin_m = 0.02;
+/// A push starts this far from the object, and nobody drives to where there is no play.
+constexpr double kStartGap_m = 0.1;
+constexpr double kRobotMargin_m = 0.05;
 constexpr int kDirections = 8;
+/// Turning takes pushes from several sides.
+constexpr int kSidesToTurn = 5;
 
 double angleOf(int direction) { return 2.0 * M_PI * direction / kDirections; }
 
@@ -37,9 +42,17 @@ class PushWaySearch {
       const Node node = open_.top().second;
       open_.pop();
       if (distance(poseOf(node), goal_) <= kStep_m) return true;
+      int sides = 0;
+      for (int direction = 0; direction < kDirections; ++direction) {
+        if (!fitsBehind(node, direction)) continue;
+        ++sides;
+        const double angle = angleOf(direction);
+        add({node[0] + static_cast<int>(std::lround(std::cos(angle))),
+             node[1] + static_cast<int>(std::lround(std::sin(angle))), node[2]});
+      }
+      if (sides < kSidesToTurn) continue;
       add({node[0], node[1], (node[2] + 1) % kDirections});
       add({node[0], node[1], (node[2] + kDirections - 1) % kDirections});
-      for (int direction = 0; direction < kDirections; ++direction) push(node, direction);
     }
     return false;
   }
@@ -59,16 +72,11 @@ class PushWaySearch {
     open_.push({-distance(pose, goal_), node});
   }
 
-  void push(const Node& node, int direction) {
-    const double angle = angleOf(direction);
-    const Node next{node[0] + static_cast<int>(std::lround(std::cos(angle))),
-                    node[1] + static_cast<int>(std::lround(std::sin(angle))), node[2]};
-    if (seen_.count(next) > 0) return;
+  bool fitsBehind(const Node& node, int direction) const {
     const int in_object = (direction - node[2] + kDirections) % kDirections;
     const double reach_m = reach_m_[static_cast<std::size_t>(in_object)];
-    const Pose2 at_node = start_ * Pose2(kStep_m * node[0], kStep_m * node[1], angle);
-    const Pose2 behind = at_node * Pose2(-reach_m, 0.0, 0.0);
-    if (!ways_.checker_.collides(*ways_.robot_footprint_, behind)) add(next);
+    const Pose2 pushing = start_ * Pose2(kStep_m * node[0], kStep_m * node[1], angleOf(direction));
+    return !ways_.checker_.collides(*ways_.robot_footprint_, pushing * Pose2(-reach_m, 0.0, 0.0));
   }
 
   const PushWays& ways_;
@@ -84,8 +92,8 @@ PushWays::PushWays(const CollisionChecker& checker, const ObjectModel& object,
     : checker_(checker),
       object_(object),
       robot_(robot),
-      object_footprint_(checker.footprint(object.solid, kMargin_m)),
-      robot_footprint_(checker.footprint(robot.solid, kMargin_m)) {}
+      object_footprint_(checker.footprint(object.solid, kObjectMargin_m)),
+      robot_footprint_(checker.footprint(robot.solid, kRobotMargin_m)) {}
 
 double PushWays::reach(double direction_rad) const {
   const Eigen::Vector2d backwards(-std::cos(direction_rad), -std::sin(direction_rad));
@@ -97,7 +105,7 @@ double PushWays::reach(double direction_rad) const {
       extent_m = std::max(extent_m, shadow.points[i].dot(backwards) + shadow.radius_m);
     }
   }
-  return extent_m + robot_.radius_m + kMargin_m;
+  return extent_m + robot_.radius_m + kStartGap_m;
 }
 
 bool PushWays::lead(const Pose2& start, const Pose2& goal) const {

@@ -11,8 +11,9 @@ namespace casepush {
 /// Whether an object can be pushed from one place to another by a robot that must stand behind it.
 ///
 /// Optimistic about motion: a push moves the object straight ahead in one of eight directions, or
-/// turns it in place. Strict about room: the object must be free wherever it goes, and the robot
-/// must fit behind it at the start of each push. So an object in a corner has no way out.
+/// turns it in place. Strict about room: the object must be free wherever it goes, the robot must
+/// fit behind it at the start of each push, and at most sides of it for a turn. So an object in a
+/// corner has no way out.
 class PushWays {
  public:
   /// @pre All outlive this. @param checker  With all other objects as obstacles.
@@ -23,7 +24,7 @@ class PushWays {
  private:
   friend class PushWaySearch;
 
-  /// From the object's centre to that of the robot, which pushes along `direction_rad` of the
+  /// From the object's origin to that of the robot, which will push along `direction_rad` of the
   /// object's frame.
   double reach(double direction_rad) const;
 
