@@ -30,6 +30,7 @@ void addPushCommand(CLI::App& app, Run& run);
 void addCasesCommand(CLI::App& app, Run& run);
 void addWorldCommand(CLI::App& app, Run& run);
 void addBenchCommand(CLI::App& app, Run& run);
+void addExperimentCommand(CLI::App& app, Run& run);
 
 /// A finite number in [low, high]: unlike CLI::Range, no NaN.
 CLI::Validator finiteIn(double low, double high);
