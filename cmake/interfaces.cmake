@@ -19,6 +19,12 @@ add_message_files(FILES
   PushableObject.msg
   PushableObjectArray.msg
   TrialPush.msg)
-add_service_files(FILES ExportCases.srv ImportCases.srv Reset.srv SetPoses.srv)
+add_service_files(FILES
+  ExportCases.srv
+  ImportCases.srv
+  Reset.srv
+  SetPoses.srv
+  StartDemonstration.srv
+  StopDemonstration.srv)
 add_action_files(FILES ExecutePush.action LearnObject.action PlanPush.action PushObject.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)

@@ -127,13 +127,14 @@ std::optional<PushConfiguration> PushCandidates::draw(int attempt,
   for (const Pose2& outcome : outcomes) {
     coverage.add(outcome);
   }
-  const int choices = options_.coverage == CoverageStrategy::kSpread ? kChoices : 1;
+  const bool is_spread = options_.coverage == CoverageStrategy::kSpread;
+  const int choices = is_spread ? kChoices : 1;
   std::optional<PushConfiguration> best;
   double best_gain = -1.0;
   int considered = 0;
   for (int i = 0; i < kMaxDraws && considered < choices; ++i) {
     const std::optional<PushConfiguration> push = tryDraw(random);
-    if (!push) {
+    if (!push || (is_spread && predictor_.slidesOff(*push))) {
       continue;
     }
     const Pose2 predicted = predictor_.predict(*push);

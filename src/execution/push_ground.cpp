@@ -83,12 +83,13 @@ Eigen::Vector2d PushGround::findMiddle(const Eigen::Vector2d& start_m) const {
   return best;
 }
 
-bool PushGround::isFree(const Pose2& map_T_start, const PushCourse& course, double margin_m) const {
+bool PushGround::isFree(const Pose2& map_T_start, const PushCourse& course, double object_margin_m,
+                        double robot_margin_m) const {
   const auto object_free = [&](const Pose2& pose) {
-    return objectRoom(map_T_start * pose) > margin_m;
+    return objectRoom(map_T_start * pose) > object_margin_m;
   };
   const auto robot_free = [&](const Pose2& pose) {
-    return robotRoom(map_T_start * pose) > margin_m;
+    return robotRoom(map_T_start * pose) > robot_margin_m;
   };
   return std::all_of(course.start_T_object.begin(), course.start_T_object.end(), object_free) &&
          std::all_of(course.start_T_robot.begin(), course.start_T_robot.end(), robot_free);
@@ -96,9 +97,9 @@ bool PushGround::isFree(const Pose2& map_T_start, const PushCourse& course, doub
 
 std::optional<double> PushGround::roomAfter(const Pose2& map_T_object,
                                             const PushCourse& course) const {
-  // An object that stands at a wall already may be pushed away from it.
+  // An object that stands at a wall already may be pushed along it or away from it.
   const double margin_m = std::min(kMarginM, objectRoom(map_T_object) - 1e-3);
-  if (!isFree(map_T_object, course, margin_m)) {
+  if (!isFree(map_T_object, course, margin_m, kMarginM)) {
     return std::nullopt;
   }
   const double sigma_m = outcomeSigma(course.start_outcome, 1e9).position_m;
@@ -107,7 +108,7 @@ std::optional<double> PushGround::roomAfter(const Pose2& map_T_object,
 }
 
 bool PushGround::wasFree(const Pose2& map_T_start, const PushCourse& course) const {
-  return isFree(map_T_start, course, kTouchM);
+  return isFree(map_T_start, course, kTouchM, kTouchM);
 }
 
 }  // namespace casepush

@@ -9,6 +9,7 @@ namespace {
 constexpr double kPeriodS = 0.05;
 // Pushes that the first guess of a gain is worth.
 constexpr double kPriorPushes = 2.0;
+constexpr double kOffRad = 0.9;
 
 }  // namespace
 
@@ -23,7 +24,7 @@ void PushPredictor::Gain::learn(double seen, double observed, double scale) {
   gain = (kPriorPushes + seen_observed) / (kPriorPushes + seen_squared);
 }
 
-Eigen::Vector3d PushPredictor::quasiStatic(const PushConfiguration& push) const {
+PushPredictor::Course PushPredictor::quasiStatic(const PushConfiguration& push) const {
   const PushTrajectory trajectory = pushTrajectory(push, limits_, kPeriodS);
   const Pose2& start = trajectory.start_T_robot.front();
   // The point of the robot that is nearest to the object's centre touches first.
@@ -46,18 +47,25 @@ Eigen::Vector3d PushPredictor::quasiStatic(const PushConfiguration& push) const 
                    object.yaw() + across.dot(step) / inertia);
     contact = moved;
   }
-  return logSe2(object);
+  const Pose2& end = trajectory.start_T_robot.back();
+  const Eigen::Vector2d to_end_object = object.position() - end.position();
+  return {logSe2(object), wrapAngle(std::atan2(to_end_object.y(), to_end_object.x()) - end.yaw() -
+                                    push.direction_rad)};
+}
+
+bool PushPredictor::slidesOff(const PushConfiguration& push) const {
+  return std::abs(quasiStatic(push).off_rad) > kOffRad;
 }
 
 Pose2 PushPredictor::predict(const PushConfiguration& push) const {
-  Eigen::Vector3d motion = quasiStatic(push);
+  Eigen::Vector3d motion = quasiStatic(push).motion;
   motion.head<2>() *= translation_.gain;
   motion.z() = std::clamp(motion.z() * rotation_.gain, -3.0, 3.0);
   return expSe2(motion);
 }
 
 void PushPredictor::learn(const PushConfiguration& push, const Pose2& start_T_object) {
-  const Eigen::Vector3d expected = quasiStatic(push);
+  const Eigen::Vector3d expected = quasiStatic(push).motion;
   const Eigen::Vector3d observed = logSe2(start_T_object);
   const double length_m = expected.head<2>().norm();
   if (length_m > 1e-3) {

@@ -21,11 +21,17 @@ class PushPredictor {
   /// Rough resting pose in the start frame.
   Pose2 predict(const PushConfiguration& push) const;
 
+  /// True if the robot will probably turn or pass by the object before the push ends.
+  bool slidesOff(const PushConfiguration& push) const;
+
   void learn(const PushConfiguration& push, const Pose2& start_T_object);
 
  private:
-  /// Logarithm of the displacement while in contact.
-  Eigen::Vector3d quasiStatic(const PushConfiguration& push) const;
+  struct Course {
+    Eigen::Vector3d motion;  ///< Logarithm of the object's displacement while in contact.
+    double off_rad;          ///< Bearing of the object off the robot's last motion.
+  };
+  Course quasiStatic(const PushConfiguration& push) const;
 
   struct Gain {
     double gain;

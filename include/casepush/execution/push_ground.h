@@ -48,7 +48,8 @@ class PushGround {
   bool wasFree(const Pose2& map_T_start, const PushCourse& course) const;
 
  private:
-  bool isFree(const Pose2& map_T_start, const PushCourse& course, double margin_m) const;
+  bool isFree(const Pose2& map_T_start, const PushCourse& course, double object_margin_m,
+              double robot_margin_m) const;
   Eigen::Vector2d findMiddle(const Eigen::Vector2d& start_m) const;
 
   ClearanceField clearance_;

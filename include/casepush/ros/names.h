@@ -18,6 +18,10 @@ constexpr Topic kTagDetections{"tag_detections", 100};
 constexpr Topic kPoints{"points", 1};  ///< Latched.
 constexpr Topic kCommandVelocity{"cmd_vel", 1};
 
+// A person who drives.
+constexpr Topic kJoy{"joy", 10};
+constexpr Topic kTeleopVelocity{"teleop_cmd_vel", 1};
+
 // Ground truth, for judging only.
 constexpr Topic kTrueObjects{"ground_truth/objects", 10};
 constexpr Topic kContacts{"contacts", 100};
@@ -44,6 +48,8 @@ constexpr const char* kSetPoseService = "sim/set_pose";
 constexpr const char* kStopService = "stop";
 constexpr const char* kExportCasesService = "cases/export";
 constexpr const char* kImportCasesService = "cases/import";
+constexpr const char* kStartDemonstrationService = "demonstration/start";
+constexpr const char* kStopDemonstrationService = "demonstration/stop";
 
 // Actions.
 constexpr const char* kLearnObjectAction = "learn_object";
