@@ -21,7 +21,14 @@ add_message_files(FILES
   PushableObject.msg
   PushableObjectArray.msg
   TrialPush.msg)
-add_service_files(FILES ExportCases.srv ImportCases.srv Reset.srv SetLoad.srv SetPoses.srv
-                  StepSimulation.srv)
+add_service_files(FILES
+  ExportCases.srv
+  ImportCases.srv
+  Reset.srv
+  SetLoad.srv
+  SetPoses.srv
+  StartDemonstration.srv
+  StepSimulation.srv
+  StopDemonstration.srv)
 add_action_files(FILES ExecutePush.action LearnObject.action PlanPush.action PushObject.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)

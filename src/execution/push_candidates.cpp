@@ -17,14 +17,18 @@ constexpr double kSlideStepM = 0.01;
 constexpr double kContactAccuracyM = 1e-3;
 // Room to each side of the line, so that docking tolerance does not make contact.
 constexpr double kSideRoomM = 0.02;
-// Lever arms of turning pushes, as shares of the object's radius.
-constexpr double kLeastLever = 0.2;
-constexpr double kMostLever = 0.7;
-constexpr double kStraightLever = 0.08;
-constexpr double kMostYawRateRps = 0.4;
-// Share of trials that do not balance anything.
-constexpr double kUnbalanced = 0.2;
-constexpr int kMaxDraws = 100;
+// Lever arm of a push, as a share of the object's radius, and turning while pushing: more of either
+// and the robot slides off.
+constexpr double kMostLever = 0.8;
+constexpr double kMostYawRateRps = 0.6;
+// Ahead of the others in a trial: the best of so many draws.
+constexpr int kChoices = 48;
+constexpr int kMaxDraws = 400;
+// Objects go on after the robot has stopped, but start behind it: of speed times duration.
+constexpr double kReachShare = 0.65;
+constexpr double kCoveredYawRad = 1.2;
+constexpr double kPlainSpeedMps = 0.3;
+constexpr double kPlainDurationS = 2.0;
 
 /// Distance along the direction, from the object's origin, at which the robot first touches it.
 std::optional<double> firstContact(const Solid& object, const Solid& robot, double reach_m,
@@ -48,47 +52,6 @@ std::optional<double> firstContact(const Solid& object, const Solid& robot, doub
   return free;
 }
 
-template <typename Kind, std::size_t kCount>
-Kind rarest(const std::array<Kind, kCount>& kinds, const std::array<int, kCount>& counts,
-            Random& random) {
-  const int least = *std::min_element(counts.begin(), counts.end());
-  std::vector<Kind> candidates;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    if (counts[i] == least) {
-      candidates.push_back(kinds[i]);
-    }
-  }
-  return candidates[random.below(candidates.size())];
-}
-
-Turn drawTurn(const std::vector<Pose2>& outcomes, Random& random) {
-  std::array<int, 3> counts{};
-  for (const Pose2& outcome : outcomes) {
-    ++counts[static_cast<int>(turnOf(outcome))];
-  }
-  if (random.chance(kUnbalanced)) {
-    counts = {};
-  }
-  return rarest(std::array<Turn, 3>{Turn::kLeft, Turn::kNone, Turn::kRight}, counts, random);
-}
-
-bool drawLong(const std::vector<Pose2>& outcomes, double usual_m, Random& random) {
-  std::array<int, 2> counts{};
-  for (const Pose2& outcome : outcomes) {
-    ++counts[outcome.position().norm() > usual_m ? 1 : 0];
-  }
-  if (random.chance(kUnbalanced)) {
-    counts = {};
-  }
-  return rarest(std::array<bool, 2>{false, true}, counts, random);
-}
-
-double drawDirection(const std::vector<Pose2>& outcomes, int failures, Random& random) {
-  const std::vector<DirectionGap> gaps = directionGaps(outcomes);
-  const DirectionGap& gap = gaps[static_cast<std::size_t>(failures) % gaps.size()];
-  return wrapAngle(gap.from_rad + gap.width_rad * random.uniform(0.25, 0.75));
-}
-
 }  // namespace
 
 std::optional<Pose2> contactStart(const Solid& object, const Solid& robot, double reach_m,
@@ -104,51 +67,88 @@ std::optional<Pose2> contactStart(const Solid& object, const Solid& robot, doubl
   return Pose2(0.0, 0.0, direction_rad) * Pose2(*contact - gap_m, offset_m, 0.0);
 }
 
+DisplacementCoverage::Region coverageRegion(const ExplorationOptions& options) {
+  DisplacementCoverage::Region region;
+  region.max_m =
+      std::max(2.0 * region.min_m, kReachShare * options.max_speed_mps * options.max_duration_s);
+  region.max_yaw_rad = kCoveredYawRad;
+  return region;
+}
+
 PushCandidates::PushCandidates(ObjectModel object, RobotModel robot,
                                const ExplorationOptions& options)
-    : object_(std::move(object)), robot_(std::move(robot)), options_(options) {}
+    : object_(std::move(object)),
+      robot_(std::move(robot)),
+      options_(options),
+      predictor_(object_, robot_) {}
 
-std::optional<PushConfiguration> PushCandidates::tryDraw(Random& random, int failures,
-                                                         const std::vector<Pose2>& outcomes) const {
-  const double middle_s = 0.5 * (options_.min_duration_s + options_.max_duration_s);
-  const double middle_mps = 0.5 * (options_.min_speed_mps + options_.max_speed_mps);
-  const double direction_rad = drawDirection(outcomes, failures, random);
-  const Turn turn = drawTurn(outcomes, random);
-  const bool is_long = drawLong(outcomes, middle_s * middle_mps, random);
-
-  PushConfiguration push;
-  push.speed_mps = random.uniform(is_long ? middle_mps : options_.min_speed_mps,
-                                  is_long ? options_.max_speed_mps : middle_mps);
-  push.duration_s = random.uniform(is_long ? middle_s : options_.min_duration_s,
-                                   is_long ? options_.max_duration_s : middle_s);
-  double lever = random.uniform(-kStraightLever, kStraightLever);
-  if (turn != Turn::kNone) {
-    // A push that passes right of the centre turns the object left.
-    const double sign = turn == Turn::kLeft ? 1.0 : -1.0;
-    lever = -sign * random.uniform(kLeastLever, kMostLever);
-    push.yaw_rate_rps =
-        sign * random.uniform(0.0, std::min(kMostYawRateRps, robot_.limits.max_yaw_rate_rps));
-  }
+std::optional<PushConfiguration> PushCandidates::at(double direction_rad, double offset_m) const {
   const auto start = contactStart(object_.solid, robot_.solid, object_.radius_m + robot_.radius_m,
-                                  direction_rad, lever * object_.radius_m, options_.start_gap_m);
+                                  direction_rad, offset_m, options_.start_gap_m);
   if (!start) {
     return std::nullopt;
   }
+  PushConfiguration push;
   push.object_T_robot = *start;
   return push;
 }
 
-PushConfiguration PushCandidates::draw(int attempt, int failures,
-                                       const std::vector<Pose2>& outcomes) const {
+std::optional<PushConfiguration> PushCandidates::tryDraw(Random& random) const {
+  const double direction_rad = random.uniform(-M_PI, M_PI);
+  const double lever = random.uniform(-kMostLever, kMostLever);
+  const double most_rps = std::min(kMostYawRateRps, robot_.limits.max_yaw_rate_rps);
+  const double yaw_rate_rps = random.uniform(-most_rps, most_rps);
+  const double speed_mps = random.uniform(options_.min_speed_mps, options_.max_speed_mps);
+  const double duration_s = random.uniform(options_.min_duration_s, options_.max_duration_s);
+  std::optional<PushConfiguration> push = at(direction_rad, lever * object_.radius_m);
+  if (push) {
+    push->speed_mps = speed_mps;
+    push->yaw_rate_rps = yaw_rate_rps;
+    push->duration_s = duration_s;
+  }
+  return push;
+}
+
+std::optional<PushConfiguration> PushCandidates::plainPush(double direction_rad) const {
+  std::optional<PushConfiguration> push = at(direction_rad, 0.0);
+  if (push) {
+    push->speed_mps = std::clamp(kPlainSpeedMps, options_.min_speed_mps, options_.max_speed_mps);
+    push->duration_s =
+        std::clamp(kPlainDurationS, options_.min_duration_s, options_.max_duration_s);
+  }
+  return push;
+}
+
+std::optional<PushConfiguration> PushCandidates::draw(int attempt,
+                                                      const std::vector<Pose2>& outcomes,
+                                                      const Filter& filter) const {
   Random random = Random::stream(options_.seed, "trial " + std::to_string(attempt));
-  for (int i = 0; i < kMaxDraws; ++i) {
-    if (const auto push = tryDraw(random, failures, outcomes)) {
-      return *push;
+  DisplacementCoverage coverage(coverageRegion(options_));
+  for (const Pose2& outcome : outcomes) {
+    coverage.add(outcome);
+  }
+  const bool is_spread = options_.coverage == CoverageStrategy::kSpread;
+  const int choices = is_spread ? kChoices : 1;
+  std::optional<PushConfiguration> best;
+  double best_gain = -1.0;
+  int considered = 0;
+  for (int i = 0; i < kMaxDraws && considered < choices; ++i) {
+    const std::optional<PushConfiguration> push = tryDraw(random);
+    if (!push || (is_spread && predictor_.slidesOff(*push))) {
+      continue;
+    }
+    const Pose2 predicted = predictor_.predict(*push);
+    if (filter && !filter(*push, predicted)) {
+      continue;
+    }
+    ++considered;
+    const double gain = coverage.gain(predicted);
+    if (gain > best_gain) {
+      best = push;
+      best_gain = gain;
     }
   }
-  CASEPUSH_CHECK(false,
-                 "the robot can not touch " << object_.name << " in " << kMaxDraws << " draws");
-  return {};
+  return best;
 }
 
 Pose2 PushCandidates::runUp(const Pose2& object_T_start, double push_direction_rad) const {

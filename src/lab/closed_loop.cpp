@@ -87,6 +87,17 @@ void ClosedLoop::place(const std::map<std::string, Pose2>& map_T_bodies) {
   }
 }
 
+void ClosedLoop::reset(std::uint64_t seed) {
+  simulator_.reset(seed);
+  tracker_ = std::make_unique<PoseTracker>(tracked_, options_.tracker);
+  robot_poses_.clear();
+  touching_.clear();
+  collision_names_.clear();
+  collisions_ = 0;
+  next_tick_s_ = 0.0;
+  placed_s_ = 0.0;
+}
+
 void ClosedLoop::advance(const Twist2& robot_twist) {
   simulator_.setCommand(robot_twist);
   // 1/50 s is no whole number of physics steps: keep the rate right on average, as a clock would.

@@ -65,8 +65,8 @@ PushTaskGoal ExecutorNode::taskGoal(const PushObjectGoal& goal) const {
 void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
   const PushObjectGoal& wanted = *goal.getGoal();
   const TrackedObject* instance = parameters_.furnishing.instance(wanted.object_id);
-  if (activity_ != nullptr) {
-    return reject<PushObjectResult>(goal, PushObjectResult::BUSY, "busy: " + activity_->describe());
+  if (!whoIsBusy().empty()) {
+    return reject<PushObjectResult>(goal, PushObjectResult::BUSY, "busy: " + whoIsBusy());
   }
   if (instance == nullptr) {
     return reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL,
@@ -128,9 +128,8 @@ ExecutePush ExecutorNode::makePush(const ExecutePushGoal& goal) const {
 
 void ExecutorNode::onExecutePush(ExecutePushServer::GoalHandle goal) {
   const ExecutePushGoal& wanted = *goal.getGoal();
-  if (activity_ != nullptr) {
-    return reject<ExecutePushResult>(goal, ExecutePushResult::BUSY,
-                                     "busy: " + activity_->describe());
+  if (!whoIsBusy().empty()) {
+    return reject<ExecutePushResult>(goal, ExecutePushResult::BUSY, "busy: " + whoIsBusy());
   }
   if (parameters_.furnishing.instance(wanted.object_id) == nullptr) {
     return reject<ExecutePushResult>(goal, ExecutePushResult::INVALID_GOAL,

@@ -62,6 +62,9 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
       handle_.subscribe(names::kObjects.name, 1, &ExecutorNode::onObjects, this, no_delay);
   odometry_subscriber_ =
       handle_.subscribe(names::kOdometry.name, 1, &ExecutorNode::onOdometry, this, no_delay);
+  teleop_subscriber_ =
+      handle_.subscribe(names::kTeleopVelocity.name, names::kTeleopVelocity.queue_size,
+                        &ExecutorNode::onTeleop, this, no_delay);
   stop_ = handle_.advertiseService(names::kStopService, &ExecutorNode::onStop, this);
   tick_check_ = handle_.createWallTimer(ros::WallDuration(kTickCheckS),
                                         [this](const ros::WallTimerEvent&) { checkTicks(); });
@@ -113,6 +116,7 @@ void ExecutorNode::onOdometry(const nav_msgs::Odometry& message) {
 }
 
 void ExecutorNode::checkTicks() {
+  checkTeleop();
   if (activity_ == nullptr) {
     return;
   }
@@ -243,8 +247,8 @@ void ExecutorNode::publishState(double now_s) {
   if (activity_ != nullptr) {
     state = activity_->state();
   } else {
-    state.phase = "idle";
-    state.description = last_end_;
+    state.phase = teleop_ ? "teleop" : "idle";
+    state.description = teleop_ ? "driven by hand" : last_end_;
   }
   state.header.stamp = toRosTime(now_s);
   state.header.frame_id = names::kMapFrame;
@@ -259,7 +263,7 @@ void ExecutorNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, missing);
   } else {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
-                   activity_ == nullptr ? "idle" : activity_->describe());
+                   whoIsBusy().empty() ? "idle" : whoIsBusy());
   }
   status.add("planner is alive", plans_.isAlive());
   status.add("cases", cases_.size());

@@ -37,6 +37,18 @@ void LearnerNode::adaptBy(const PushReport& report) {
               parameters_.adaptation, parameters_.floor);
 }
 
+std::int64_t LearnerNode::addDemonstrated(const Case& push_case) {
+  std::int64_t id = 0;
+  {
+    const std::lock_guard<std::mutex> lock(base_mutex_);
+    Case demonstrated = push_case;
+    demonstrated.context = parameters_.context;
+    id = base_.add(demonstrated, std::nullopt, parameters_.floor);
+  }
+  publishCases();
+  return id;
+}
+
 bool LearnerNode::onExport(ExportCases::Request& request, ExportCases::Response& response) {
   const std::lock_guard<std::mutex> lock(base_mutex_);
   try {
@@ -94,7 +106,10 @@ void LearnerNode::publishMarkers() {
 }
 
 void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  status.summary(diagnostic_msgs::DiagnosticStatus::OK, server_.isActive() ? "learning" : "idle");
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, server_.isActive() ? "learning"
+                                                        : demonstrations_.isRecording()
+                                                            ? "recording a demonstration"
+                                                            : "idle");
   status.add("case base", parameters_.case_base);
   const std::lock_guard<std::mutex> lock(base_mutex_);
   status.add("cases", base_.count());

@@ -13,11 +13,11 @@
 #include "casepush/ros/markers.h"
 #include "casepush/ros/names.h"
 #include "casepush/ros/push_conversions.h"
+#include "learner_run.h"
 
 namespace casepush {
 namespace {
 
-using SteadyClock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 // How near the tracked pose must be to where an object was put.
@@ -28,32 +28,23 @@ constexpr std::chrono::seconds kExecutorPatience(20);  // Wall time.
 constexpr milliseconds kLook(20);
 constexpr int kRefusals = 5;  // In a row by the executor, before learning gives up.
 
-double secondsSince(SteadyClock::time_point start) {
-  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+const char* toString(Exploration::Trial::Kind kind) {
+  switch (kind) {
+    case Exploration::Trial::Kind::kExplore:
+      return "explore";
+    case Exploration::Trial::Kind::kPractise:
+      return "practise";
+    case Exploration::Trial::Kind::kBringBack:
+      break;
+  }
+  return "bring back";
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
-
-struct LearnerNode::Run {
-  std::string object_id;
-  const TrackedObject* instance = nullptr;
-  ExplorationOptions options;
-  std::unique_ptr<Exploration> exploration;
-  bool teleport = false;
-  Pose2 map_T_home;
-  int pushes = 0;
-  int refusals = 0;
-  int done_before = 0;  ///< Pushes that earlier runs had stored.
-  SteadyClock::time_point start = SteadyClock::now();
-  double start_s = 0.0;
-  LearnObjectResult result;
-
-  bool fail(std::uint8_t status, const std::string& explanation) {
-    result.status = status;
-    result.explanation = explanation;
-    return false;
-  }
-};
 
 LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handle)
     : parameters_(std::move(parameters)),
@@ -64,8 +55,16 @@ LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handl
       server_(
           handle, names::kLearnObjectAction,
           [this](const LearnObjectGoalConstPtr& goal) { onGoal(goal); }, false),
+      demonstrations_(parameters_.furnishing, objects_, parameters_.demonstration, handle,
+                      {[this] {
+                         return server_.isActive() ? std::string("learning is under way")
+                                                   : std::string();
+                       },
+                       [this](const Case& push_case) { return addDemonstrated(push_case); }}),
       diagnostics_(handle, "learner", [this](auto& status) { reportDiagnostics(status); }) {
   shown_object_ = parameters_.furnishing.instances.front().id;
+  octomap_subscriber_ = handle_.subscribe(names::kOctomap.name, names::kOctomap.queue_size,
+                                          &LearnerNode::onOctomap, this);
   set_pose_ = handle_.serviceClient<SetPoses>(names::kSetPoseService);
   cases_ = handle_.advertise<PushCaseArray>(names::kCases.name, names::kCases.queue_size, true);
   markers_ = handle_.advertise<MarkerArray>(names::kCaseMarkers.name,
@@ -137,16 +136,13 @@ void LearnerNode::learn(const LearnObjectGoal& goal, Run& run) {
       std::make_unique<Exploration>(run.instance->model, parameters_.furnishing.robot, run.options);
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
-    const std::vector<Case> known = base_.cases(run.instance->model.name);
-    run.exploration->resume(known);
-    for (const Case& each : known) {
-      run.done_before += std::min(each.observation_count, run.options.practices);
-    }
+    run.exploration->resume(base_.cases(run.instance->model.name));
+    run.done_before = run.exploration->pushesDone();
   }
   if (!begin(run)) {
     return;
   }
-  while (const std::optional<Exploration::Trial> trial = run.exploration->next()) {
+  while (const std::optional<Exploration::Trial> trial = nextTrial(run)) {
     const std::optional<PushReport> report = execute(run, *trial);
     if (!report) {
       return;
@@ -186,7 +182,7 @@ bool LearnerNode::begin(Run& run) {
                     run.object_id + " has not been seen (topic objects)");
   }
   run.map_T_home = parameters_.home.value_or(objects_.find(run.object_id)->map_T_object);
-  return true;
+  return run.teleport || findGround(run);
 }
 
 bool LearnerNode::shouldEnd() { return !ros::ok() || server_.isPreemptRequested(); }
@@ -202,9 +198,10 @@ bool LearnerNode::waitForChange(const std::function<bool()>& condition) {
 }
 
 bool LearnerNode::waitForExecutor() {
-  const SteadyClock::time_point end = SteadyClock::now() + kExecutorPatience;
+  const std::chrono::steady_clock::time_point end =
+      std::chrono::steady_clock::now() + kExecutorPatience;
   while (!execute_push_.isServerConnected()) {
-    if (shouldEnd() || SteadyClock::now() > end) {
+    if (shouldEnd() || std::chrono::steady_clock::now() > end) {
       return false;
     }
     waitForChange([] { return false; });
@@ -302,25 +299,11 @@ std::optional<ExecutePushResult> LearnerNode::call(const ExecutePushGoal& goal, 
 void LearnerNode::store(Run& run, const Exploration::Trial& trial, const PushReport& report) {
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
-    Case recorded = report.recorded;
-    recorded.context = parameters_.context;
-    std::optional<Case> updated;
-    if (trial.case_id && isObservation(report)) {
-      updated = base_.observe(*trial.case_id, observedPush(report, parameters_.context),
-                              parameters_.floor);
-    }
-    switch (run.exploration->judge(report, updated)) {
-      case Exploration::Verdict::kStoreCase:
-        run.exploration->stored(base_.add(recorded, report.end_stamp_s));
-        break;
-      case Exploration::Verdict::kDropCase:
-        base_.remove(*trial.case_id);
-        break;
-      case Exploration::Verdict::kObserve:
-        break;
-      case Exploration::Verdict::kDiscard:
-        ROS_DEBUG("push discarded: %s %s", toString(report.outcome), report.explanation.c_str());
-        return;
+    const PushGround* ground = run.ground ? &*run.ground : nullptr;
+    if (!keep(*run.exploration, trial, report, base_, {parameters_.floor, parameters_.context},
+              ground)) {
+      ROS_DEBUG("push not kept: %s %s", toString(report.outcome), report.explanation.c_str());
+      return;
     }
   }
   publishCases();
@@ -334,11 +317,11 @@ void LearnerNode::publishProgress(const Run& run, const Exploration::Trial& tria
   feedback.practice_count = static_cast<std::uint32_t>(run.options.practices);
   feedback.pushes = static_cast<std::uint32_t>(run.pushes);
   feedback.discarded = static_cast<std::uint32_t>(run.exploration->discarded());
-  const int done = (trial.case_number - 1) * run.options.practices + trial.practice_number - 1;
+  const int done = run.exploration->pushesDone();
   const int left = run.options.cases * run.options.practices - done;
   const int done_now = done - run.done_before;
   feedback.time_left = done_now > 0 ? secondsSince(run.start) / done_now * left : -1.0;
-  feedback.phase = run.teleport ? "reset" : "approach";
+  feedback.phase = toString(trial.kind);
   server_.publishFeedback(feedback);
 }
 

@@ -152,6 +152,9 @@ void readTask(ParameterReader& reader, PushTaskOptions& options) {
 void readExploration(ParameterReader& reader, ExplorationOptions& options) {
   reader.read("exploration/cases", options.cases, 1, 10000);
   reader.read("exploration/practices", options.practices, 1, 10000);
+  std::string coverage = toString(options.coverage);
+  reader.read("exploration/coverage", coverage, {"spread", "random"});
+  reader.check([&] { options.coverage = coverageStrategyFromString(coverage); });
   reader.read("exploration/min_speed", options.min_speed_mps);
   reader.read("exploration/max_speed", options.max_speed_mps);
   reader.read("exploration/min_duration", options.min_duration_s);
@@ -180,6 +183,18 @@ void changeSensors(ParameterReader& reader, const std::string& key, RobotModel& 
       }
     });
   }
+}
+
+void readDemonstration(ParameterReader& reader, DemonstrationOptions& options) {
+  reader.read("demonstration/sample_period", options.sample_period_s);
+  reader.read("demonstration/contact_gap", options.contact_gap_m);
+  reader.read("demonstration/min_displacement", options.min_displacement_m);
+  reader.read("demonstration/min_rotation", options.min_rotation_rad);
+  reader.read("demonstration/max_push", options.max_push_s);
+  reader.read("demonstration/max_recording", options.max_recording_s);
+  reader.read("demonstration/lost_object", options.lost_object_s);
+  reader.read("demonstration/rest_time", options.rest_time_s);
+  reader.check([&] { options.validate(); });
 }
 
 /// "x y yaw_deg": metres and degrees.
@@ -263,6 +278,7 @@ ExecutorNodeParameters loadExecutorNodeParameters(ParameterReader reader, const 
   reader.read("watchdog", parameters.watchdog_s, 0.02, 1.0);
   reader.read("stale_objects", parameters.stale_objects_s, 0.02, 10.0);
   reader.read("lost_objects", parameters.lost_objects_s, 0.02, 3600.0);
+  reader.read("teleop_timeout", parameters.teleop_timeout_s, 0.05, 2.0);
   reader.read("dead_clock", parameters.dead_clock_s, 0.1, 3600.0);
   reader.finish();
   return parameters;
@@ -272,6 +288,7 @@ LearnerNodeParameters loadLearnerNodeParameters(ParameterReader reader, const Ca
   LearnerNodeParameters parameters;
   parameters.furnishing = readFurnishing(reader, catalog);
   readExploration(reader, parameters.exploration);
+  readDemonstration(reader, parameters.demonstration);
   reader.read("case_base", parameters.case_base);
   reader.read("floor_position", parameters.floor.position_m, 1e-6, 1.0);
   reader.read("floor_yaw", parameters.floor.yaw_rad, 1e-6, 1.0);

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   casepush::addCasesCommand(app, run);
   casepush::addWorldCommand(app, run);
   casepush::addBenchCommand(app, run);
+  casepush::addExperimentCommand(app, run);
   const bool json = wantsJson(argc, argv);
   try {
     app.parse(argc, argv);

@@ -32,6 +32,7 @@ void addCasesCommand(CLI::App& app, Run& run);
 void addWorldCommand(CLI::App& app, Run& run);
 void addBenchCommand(CLI::App& app, Run& run);
 void addPlanBench(CLI::App& bench, Run& run);  ///< Of addBenchCommand().
+void addExperimentCommand(CLI::App& app, Run& run);
 
 /// A finite number in [low, high]: unlike CLI::Range, no NaN.
 CLI::Validator finiteIn(double low, double high);

@@ -6,14 +6,27 @@
 #include <string>
 #include <vector>
 
+#include "casepush/cases/case_base.h"
 #include "casepush/execution/execute_push.h"
+#include "casepush/execution/push_ground.h"
 #include "casepush/model/object_model.h"
 
 namespace casepush {
 
+/// Which pushes are tried.
+enum class CoverageStrategy {
+  kRandom,  ///< Any push within the limits (paper section 3.2).
+  kSpread,  ///< The one that promises outcomes not covered yet; known outcomes are not kept twice.
+};
+/// "random" or "spread".
+const char* toString(CoverageStrategy strategy);
+/// @throws InputError if there is no strategy of that name.
+CoverageStrategy coverageStrategyFromString(const std::string& name);
+
 struct ExplorationOptions {
   int cases = 14;
   int practices = 20;  ///< Pushes per case, the first one included.
+  CoverageStrategy coverage = CoverageStrategy::kSpread;
   double min_speed_mps = 0.15;
   double max_speed_mps = 0.4;
   double min_duration_s = 1.0;  ///< Paper: 1 to 3 s.
@@ -48,62 +61,93 @@ struct ExplorationQuality {
 /// Decides which push to try next and what to keep; the caller executes and stores.
 ///
 /// First trials start on the object's outline where the robot fits, found by sliding the robot's
-/// true shape towards it. Directions fill the widest gaps between those known; lever arm, speed and
-/// duration balance left and right turns, short and long pushes. A first trial whose outcome is not
-/// yet covered is kept and practised; the distance asked for relaxes with each trial that is not. A
-/// case that turns out too uncertain after five pushes, or fails five times in a row, is dropped
-/// and replaced. Pure logic, deterministic by seed and reports.
+/// true shape towards it; docs/learning.md says how the next one is chosen. A first trial that
+/// brings something is kept and practised. A case that turns out too uncertain after five pushes,
+/// or fails five times in a row, is dropped and replaced. Pure logic, deterministic by seed and
+/// reports.
 ///
 /// Usage:
 ///   while (auto trial = exploration.next()) {
 ///     execute it -> report;
-///     if (trial->case_id && isObservation(report)) updated = case with that outcome added;
-///     switch (exploration.judge(report, updated)) ...   // see Verdict
+///     keep(exploration, *trial, report, case_base, floor);
 ///   }
+/// A robot that drives gives its ground and the object's pose to next(), and its ground to keep().
 class Exploration {
  public:
   Exploration(ObjectModel object, RobotModel robot, ExplorationOptions options);
   ~Exploration();
 
-  /// Continue from cases learnt before (a resumed run); those of other objects or robots are ignored. Cases short of practices are practised
-  /// first.
+  /// Continue from cases learnt before (a resumed run); those of other objects or robots are
+  /// ignored. Cases short of practices are practised first.
   void resume(const std::vector<Case>& cases);
 
   struct Trial {
-    std::optional<std::int64_t> case_id;  ///< Practise this case; otherwise try `configuration`.
+    enum class Kind {
+      kExplore,    ///< Try `configuration`.
+      kPractise,   ///< Repeat the case.
+      kBringBack,  ///< Push the object back to where there is room: repeat the case, if there is
+                   ///< one, else `configuration`.
+    };
+    Kind kind = Kind::kExplore;
+    std::optional<std::int64_t> case_id;
     PushConfiguration configuration;
     Pose2 object_T_robot;  ///< Where the robot starts in either way.
     Pose2 object_T_reset;  ///< Where to put the robot if it need not drive there: it docks itself.
     int case_number = 0;   ///< From 1, of options.cases.
     int practice_number = 0;  ///< From 1, of options.practices.
+    int serial = 0;           ///< Of the first trial that led to it,
+    int repetition = 0;  ///< and how often that was repeated: the two name a push among all others.
   };
-  /// The next push to execute; nothing if learning is done or has given up. The same until judged.
-  /// @pre stored() was called if judge() said kStoreCase.
+
+  /// The next push to execute if somebody puts object and robot back for each; nothing if learning
+  /// is done or has given up. The same until judged.
   std::optional<Trial> next() const;
 
-  /// What to do with the report of the trial that next() gave.
+  /// The next push to execute where the object stands now, for a robot that has to drive.
+  ///
+  /// The first practice that leaves room around the object; else a first trial that does, if cases
+  /// are wanted; else a push back towards the middle of the ground; else whatever does not run into
+  /// something. After a push that could not be started something else is chosen. Nothing if
+  /// learning is done or has given up, also because nothing can be pushed here.
+  std::optional<Trial> next(const PushGround& ground, const Pose2& map_T_object);
+
+  /// What to do with the report of a trial.
   enum class Verdict {
     kStoreCase,  ///< Store report.recorded as a new case and call stored(id).
-    kObserve,    ///< Add report's outcome to the case.
-    kDropCase,   ///< Remove the case, which this run found: too uncertain, or it keeps failing. It
-                 ///< will be replaced. Cases of earlier runs are never dropped.
+    kObserve,    ///< Add report's outcome to the case and call observed(case).
+    kDropCase,   ///< Remove the case, which this run found: it keeps failing. It will be replaced.
+                 ///< Cases of earlier runs are never dropped.
     kDiscard,    ///< Useless or failed push; nothing to store.
   };
-  /// @param updated  For practices: the case with this observation already included; nothing if the
-  ///   push was no observation.
-  Verdict judge(const PushReport& report, const std::optional<Case>& updated);
+  /// @param ground  Where it was pushed, or nullptr: outcomes that walls had a part in are useless.
+  Verdict judge(const Trial& trial, const PushReport& report, const PushGround* ground = nullptr);
   void stored(std::int64_t case_id);
+  /// @return  False if the case turned out too uncertain and should be removed, see kDropCase.
+  bool observed(const Case& updated);
 
   bool finished() const;
   bool gaveUp() const;
   std::string explanation() const;     ///< Why it gave up, and what to do; for a person.
   int discarded() const;               ///< Pushes without use so far.
+  int broughtBack() const;             ///< Pushes just to get the object back.
   int dropped() const;                 ///< Cases replaced so far.
+  int pushesDone() const;              ///< Of cases x practices, those there are.
   ExplorationQuality quality() const;  ///< Of the cases known so far.
 
  private:
   struct Data;
   std::unique_ptr<Data> data_;
 };
+
+/// What is stored along with each push.
+struct KeepOptions {
+  CovarianceFloor floor;
+  PushContext context;
+};
+
+/// Judges a trial and does what the verdict says with the case base.
+/// @return  True if the case base has changed.
+bool keep(Exploration& exploration, const Exploration::Trial& trial, const PushReport& report,
+          CaseBase& case_base, const KeepOptions& options, const PushGround* ground = nullptr);
 
 }  // namespace casepush

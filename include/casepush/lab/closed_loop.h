@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -42,6 +43,10 @@ class ClosedLoop {
 
   /// Teleports bodies and forgets their tracks, then waits until the robot has seen them again.
   void place(const std::map<std::string, Pose2>& map_T_bodies);
+
+  /// The world as at the start, with a new seed for the simulator; time starts at 0. What follows
+  /// is as in a new loop.
+  void reset(std::uint64_t seed);
 
   Simulator& simulator() { return simulator_; }
   const Simulator& simulator() const { return simulator_; }

@@ -4,6 +4,7 @@
 #include <casepush/Octomap.h>
 #include <casepush/PushCaseArray.h>
 #include <casepush/PushableObjectArray.h>
+#include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
@@ -27,6 +28,8 @@ namespace casepush {
 
 /// The only writer of cmd_vel: ticks one behaviour at a time on each odometry message.
 ///
+/// While no goal is active it passes on what a person asks for (teleop_cmd_vel), within the robot's
+/// limits; while somebody drives, goals are refused.
 /// The base is told to stand still whatever the behaviour says when the robot's or the objects'
 /// poses are stale, and by a watchdog on wall time when ticks cease altogether.
 class ExecutorNode {
@@ -45,8 +48,12 @@ class ExecutorNode {
   template <typename GoalHandle>
   void onCancel(GoalHandle goal);
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void onTeleop(const geometry_msgs::Twist& message);
+  void checkTeleop();
   void checkTicks();
 
+  /// Who is using the base; "" if nobody is.
+  std::string whoIsBusy() const;
   /// Why nothing can be executed now; "" if all is there.
   std::string whatIsMissing() const;
   PushTaskGoal taskGoal(const PushObjectGoal& goal) const;
@@ -81,6 +88,8 @@ class ExecutorNode {
   ActivityEnd end_ = ActivityEnd::kFinished;
   std::string end_explanation_;
   SteadyClock::time_point last_tick_;
+  SteadyClock::time_point last_teleop_;
+  bool teleop_ = false;  ///< Somebody drives.
   double last_stamp_s_ = 0.0;
   double last_state_s_ = -1e9;
   std::string last_phase_;
@@ -95,6 +104,7 @@ class ExecutorNode {
   ros::Subscriber cases_subscriber_;
   ros::Subscriber objects_subscriber_;
   ros::Subscriber odometry_subscriber_;
+  ros::Subscriber teleop_subscriber_;
   ros::ServiceServer stop_;
   ros::WallTimer tick_check_;
   PushObjectServer push_object_;

@@ -7,6 +7,7 @@
 #include <casepush/ExportCases.h>
 #include <casepush/ImportCases.h>
 #include <casepush/LearnObjectAction.h>
+#include <casepush/Octomap.h>
 #include <ros/ros.h>
 
 #include <condition_variable>
@@ -19,14 +20,17 @@
 
 #include "casepush/cases/case_base.h"
 #include "casepush/execution/exploration.h"
+#include "casepush/ros/demonstration_server.h"
 #include "casepush/ros/diagnostics.h"
 #include "casepush/ros/node_parameters.h"
 #include "casepush/ros/object_watch.h"
+#include "casepush/world/map.h"
 
 namespace casepush {
 
-/// Owner of the case base: learns objects by exploration (action learn_object), adapts cases by the
-/// pushes of tasks, and tells everybody the current cases.
+/// Owner of the case base: learns objects by exploration (action learn_object) and demonstration
+/// (services demonstration/...), adapts cases by the pushes of tasks, and tells everybody the
+/// current cases.
 ///
 /// Learning runs in the action's own thread and drives the robot through the action execute_push.
 /// Each finished push is in the file before the next one begins.
@@ -46,6 +50,9 @@ class LearnerNode {
   void learn(const LearnObjectGoal& goal, Run& run);
   ExplorationOptions explorationOptions(const LearnObjectGoal& goal) const;
   bool begin(Run& run);
+  bool findGround(Run& run);
+  std::shared_ptr<const Map> waitForMap();
+  std::optional<Exploration::Trial> nextTrial(Run& run);
   bool canTeleport();
   bool waitForExecutor();
   /// Waits for a moment or until the condition on guarded state holds; returns whether it does.
@@ -60,10 +67,12 @@ class LearnerNode {
   void store(Run& run, const Exploration::Trial& trial, const PushReport& report);
   void publishProgress(const Run& run, const Exploration::Trial& trial);
 
+  void onOctomap(const Octomap& message);
   void onReport(const ExecutedPush& message);
   void adaptBy(const PushReport& report);
   bool onExport(ExportCases::Request& request, ExportCases::Response& response);
   bool onImport(ImportCases::Request& request, ImportCases::Response& response);
+  std::int64_t addDemonstrated(const Case& push_case);
   void publishCases();
   void publishMarkers();
   void publishMarkersIfMoved();
@@ -80,16 +89,19 @@ class LearnerNode {
   std::string shown_object_;  ///< Instance around which cases are drawn.
   Pose2 shown_at_;
   bool push_done_ = false;
+  std::shared_ptr<const Map> map_;  ///< Null until there is one.
 
   ros::ServiceClient set_pose_;
   ros::Publisher cases_;
   ros::Publisher markers_;
   ros::Subscriber reports_subscriber_;
+  ros::Subscriber octomap_subscriber_;
   ros::ServiceServer export_;
   ros::ServiceServer import_;
   ros::WallTimer marker_timer_;
   Client execute_push_;
   Server server_;
+  DemonstrationServer demonstrations_;
   Diagnostics diagnostics_;  ///< Last: its timer uses the members above.
 };
 

@@ -19,6 +19,10 @@ constexpr Topic kPoints{"points", 10};
 constexpr Topic kSurvey{"survey", 1};  ///< Latched.
 constexpr Topic kCommandVelocity{"cmd_vel", 1};
 
+// A person who drives.
+constexpr Topic kJoy{"joy", 10};
+constexpr Topic kTeleopVelocity{"teleop_cmd_vel", 1};
+
 // Ground truth, for judging only.
 constexpr Topic kTrueObjects{"ground_truth/objects", 10};
 constexpr Topic kTrueLoads{"ground_truth/loads", 1};  ///< Latched.
@@ -48,6 +52,8 @@ constexpr const char* kStepService = "sim/step";
 constexpr const char* kStopService = "stop";
 constexpr const char* kExportCasesService = "cases/export";
 constexpr const char* kImportCasesService = "cases/import";
+constexpr const char* kStartDemonstrationService = "demonstration/start";
+constexpr const char* kStopDemonstrationService = "demonstration/stop";
 
 // Actions.
 constexpr const char* kLearnObjectAction = "learn_object";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "casepush/cases/outcome_statistics.h"
+#include "casepush/execution/demonstration.h"
 #include "casepush/execution/exploration.h"
 #include "casepush/execution/push_task.h"
 #include "casepush/model/catalog.h"
@@ -56,10 +57,11 @@ struct ExecutorNodeParameters {
   Furnishing furnishing;
   PushPlannerOptions planner;  ///< For approach paths and for judging the rest of a plan.
   PushTaskOptions task;
-  double watchdog_s = 0.12;      ///< Wall time without a tick after which zero is commanded.
-  double stale_objects_s = 0.2;  ///< Age of `objects` above which zero is commanded,
-  double lost_objects_s = 2.0;   ///< and above which a goal is aborted.
-  double dead_clock_s = 5.0;     ///< Wall time without a tick after which a goal is aborted.
+  double watchdog_s = 0.12;       ///< Wall time without a tick after which zero is commanded.
+  double stale_objects_s = 0.2;   ///< Age of `objects` above which zero is commanded,
+  double lost_objects_s = 2.0;    ///< and above which a goal is aborted.
+  double teleop_timeout_s = 0.3;  ///< Wall time without teleop_cmd_vel after which the base stops.
+  double dead_clock_s = 5.0;      ///< Wall time without a tick after which a goal is aborted.
 };
 
 enum class ResetMode { kAuto, kTeleport, kDrive };
@@ -68,6 +70,7 @@ struct LearnerNodeParameters {
   Furnishing furnishing;
   std::string case_base = "cases.db";
   ExplorationOptions exploration;  ///< cases, practices and seed come with each goal.
+  DemonstrationOptions demonstration;
   CovarianceFloor floor;
   AdaptationOptions adaptation;
   PushContext context;  ///< That pushes are made in; cases are adapted and published for it.

@@ -64,42 +64,107 @@ TEST(ContactStart, usesTheTrueShapesAtEachHeight) {
 }
 
 TEST(PushCandidates, areWithinTheOptionsAndClearOfTheObject) {
-  ExplorationOptions options;
-  const ObjectModel object = test::fakeObject();
-  const RobotModel robot = test::fakeRobot();
-  const PushCandidates candidates(object, robot, options);
-  std::vector<Pose2> outcomes;
-  int turns[3] = {};
-  for (int i = 0; i < 60; ++i) {
-    const PushConfiguration push = candidates.draw(i, 0, outcomes);
-    EXPECT_GE(push.speed_mps, options.min_speed_mps);
-    EXPECT_LE(push.speed_mps, options.max_speed_mps);
-    EXPECT_GE(push.duration_s, options.min_duration_s);
-    EXPECT_LE(push.duration_s, options.max_duration_s);
-    EXPECT_FALSE(solidsOverlap(object.solid, Pose2(), robot.solid, push.object_T_robot));
-    EXPECT_NO_THROW(pushTrajectory(push, robot.limits, 0.1));
-    ++turns[push.yaw_rate_rps > 0.0 ? 0 : push.yaw_rate_rps < 0.0 ? 2 : 1];
-    if (i % 5 == 4) {
-      const double direction = push.object_T_robot.yaw();
-      outcomes.emplace_back(0.5 * std::cos(direction), 0.5 * std::sin(direction),
-                            push.yaw_rate_rps == 0.0 ? 0.0 : std::copysign(0.6, push.yaw_rate_rps));
+  for (const CoverageStrategy strategy : {CoverageStrategy::kRandom, CoverageStrategy::kSpread}) {
+    ExplorationOptions options;
+    options.coverage = strategy;
+    const ObjectModel object = test::fakeObject();
+    const RobotModel robot = test::fakeRobot();
+    const PushCandidates candidates(object, robot, options);
+    for (int i = 0; i < 20; ++i) {
+      const auto push = candidates.draw(i, {}, {});
+      ASSERT_TRUE(push);
+      EXPECT_GE(push->speed_mps, options.min_speed_mps);
+      EXPECT_LE(push->speed_mps, options.max_speed_mps);
+      EXPECT_GE(push->duration_s, options.min_duration_s);
+      EXPECT_LE(push->duration_s, options.max_duration_s);
+      EXPECT_FALSE(solidsOverlap(object.solid, Pose2(), robot.solid, push->object_T_robot));
+      EXPECT_NO_THROW(pushTrajectory(*push, robot.limits, 0.1));
     }
   }
-  for (const int count : turns) {
-    EXPECT_GE(count, 10);
+}
+
+// What 14 pushes would cover if each went as predicted.
+double coveredBy(CoverageStrategy strategy, std::vector<Pose2>& outcomes) {
+  ExplorationOptions options;
+  options.coverage = strategy;
+  const PushCandidates candidates(test::fakeObject(), test::fakeRobot(), options);
+  DisplacementCoverage coverage;
+  for (int i = 0; i < 14; ++i) {
+    const Pose2 next = candidates.predict(*candidates.draw(i, outcomes, {}));
+    coverage.add(next);
+    outcomes.push_back(next);
   }
-  EXPECT_LT(directionGaps(outcomes).front().width_rad, 1.2);
+  return coverage.meanDistance();
+}
+
+TEST(PushCandidates, spreadPushesCoverMoreThanRandomOnes) {
+  std::vector<Pose2> random;
+  std::vector<Pose2> spread;
+  EXPECT_LT(coveredBy(CoverageStrategy::kSpread, spread),
+            0.9 * coveredBy(CoverageStrategy::kRandom, random));
+  EXPECT_LT(directionGaps(spread).front().width_rad, 1.6);
+  int left = 0;
+  int right = 0;
+  for (const Pose2& outcome : spread) {
+    left += turnOf(outcome) == Turn::kLeft ? 1 : 0;
+    right += turnOf(outcome) == Turn::kRight ? 1 : 0;
+  }
+  EXPECT_GE(left, 4);
+  EXPECT_GE(right, 4);
+}
+
+TEST(PushCandidates, obeyTheFilter) {
+  const PushCandidates candidates(test::fakeObject(), test::fakeRobot(), ExplorationOptions{});
+  const auto ahead = [](const PushConfiguration&, const Pose2& predicted) {
+    return predicted.x() > 0.2;
+  };
+  const auto push = candidates.draw(0, {}, ahead);
+  ASSERT_TRUE(push);
+  EXPECT_GT(candidates.predict(*push).x(), 0.2);
+  EXPECT_FALSE(candidates.draw(0, {}, [](const auto&, const auto&) { return false; }));
+}
+
+TEST(PushPredictor, aPushAtTheCentreMovesAndOneBesideItTurns) {
+  const PushPredictor predictor(test::fakeObject(), test::fakeRobot());
+  PushConfiguration push = test::straightPush();
+  const double length_m = 0.3 * 2.0 - 0.3 * 0.3 / 0.8;
+  EXPECT_NEAR(predictor.predict(push).x(), length_m, 1e-3);
+  EXPECT_NEAR(predictor.predict(push).yaw(), 0.0, 1e-9);
+  push.object_T_robot = Pose2(push.object_T_robot.x() + 0.05, -0.2, 0.0);
+  EXPECT_GT(predictor.predict(push).yaw(), 0.2);
+  push.object_T_robot = Pose2(push.object_T_robot.x(), 0.2, 0.0);
+  EXPECT_LT(predictor.predict(push).yaw(), -0.2);
+}
+
+TEST(PushPredictor, learnsHowFarAnObjectGoes) {
+  PushPredictor predictor(test::fakeObject(), test::fakeRobot());
+  const PushConfiguration push = test::straightPush();
+  const double before_m = predictor.predict(push).x();
+  for (int i = 0; i < 10; ++i) {
+    predictor.learn(push, Pose2(1.4 * before_m, 0.0, 0.0));
+  }
+  EXPECT_NEAR(predictor.predict(push).x(), 1.4 * before_m, 0.1 * before_m);
+}
+
+TEST(PushPredictor, knowsWhenTheRobotTurnsPastTheObject) {
+  const PushPredictor predictor(test::fakeObject(), test::fakeRobot());
+  PushConfiguration push = test::straightPush();
+  EXPECT_FALSE(predictor.slidesOff(push));
+  push.object_T_robot = Pose2(-0.6, 0.25, 0.0);
+  push.yaw_rate_rps = 0.6;
+  push.duration_s = 3.0;
+  EXPECT_TRUE(predictor.slidesOff(push));
 }
 
 TEST(PushCandidates, dependOnSeedAndAttemptOnly) {
   ExplorationOptions options;
   const PushCandidates a(test::fakeObject(), test::fakeRobot(), options);
   const PushCandidates b(test::fakeObject(), test::fakeRobot(), options);
-  EXPECT_DOUBLE_EQ(a.draw(3, 0, {}).speed_mps, b.draw(3, 0, {}).speed_mps);
-  EXPECT_NE(a.draw(3, 0, {}).speed_mps, a.draw(4, 0, {}).speed_mps);
+  EXPECT_DOUBLE_EQ(a.draw(3, {}, {})->speed_mps, b.draw(3, {}, {})->speed_mps);
+  EXPECT_NE(a.draw(3, {}, {})->speed_mps, a.draw(4, {}, {})->speed_mps);
   options.seed = 2;
   const PushCandidates c(test::fakeObject(), test::fakeRobot(), options);
-  EXPECT_NE(a.draw(3, 0, {}).speed_mps, c.draw(3, 0, {}).speed_mps);
+  EXPECT_NE(a.draw(3, {}, {})->speed_mps, c.draw(3, {}, {})->speed_mps);
 }
 
 TEST(Coverage, gapsWrapAround) {

@@ -1,0 +1,186 @@
+#include "casepush/lab/coverage_experiment.h"
+
+#include <stdlib.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include "casepush/common/check.h"
+#include "casepush/common/input_error.h"
+#include "casepush/execution/displacement_coverage.h"
+#include "casepush/lab/push_run.h"
+#include "casepush/world/static_map.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kReachRadiusM = 0.8;
+constexpr double kTurnRad = 0.3;
+// Generous, so that a busy machine changes nothing.
+constexpr double kDeadlineS = 120.0;
+
+/// Student's t for 95 % (two-sided) by degrees of freedom, from 1.
+constexpr std::array<double, 30> kStudent = {
+    12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
+    2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
+    2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
+
+/// A folder that is gone when this is.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "casepush_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw InputError(name, "cannot make a temporary folder");
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+struct Learnt {
+  std::vector<Case> cases;
+  CoverageMeasures measures;
+  std::vector<int> plan_pushes;  ///< Per problem; 0: there is no plan.
+};
+
+Learnt learnCases(const Catalog& catalog, const CoverageExperimentOptions& options,
+                  CoverageStrategy strategy, std::uint64_t seed) {
+  const TemporaryFolder folder;
+  CaseBase case_base(folder.path() / "cases.db", CaseBase::Access::kCreate);
+  LearningOptions learning = options.learning;
+  learning.exploration.coverage = strategy;
+  learning.exploration.seed = seed;
+  learning.lab.simulator.seed = seed;
+  const LearningResult result =
+      learnInLab(catalog, options.object, options.robot, case_base, learning);
+  if (!result.success) {
+    throw InputError("learning " + options.object + " with seed " + std::to_string(seed),
+                     result.explanation);
+  }
+  Learnt learnt;
+  learnt.cases = case_base.cases();
+  learnt.measures.pushes = result.pushes;
+  return learnt;
+}
+
+void measureCoverage(Learnt& learnt) {
+  std::vector<Pose2> outcomes;
+  DisplacementCoverage coverage;
+  for (const Case& push_case : learnt.cases) {
+    outcomes.push_back(push_case.start_outcome.mean);
+    coverage.add(outcomes.back());
+    learnt.measures.turning_cases += std::abs(outcomes.back().yaw()) > kTurnRad ? 1.0 : 0.0;
+  }
+  learnt.measures.mean_distance = coverage.meanDistance();
+  learnt.measures.reach_2 = reachableShare(outcomes, 2, kReachRadiusM);
+  learnt.measures.reach_3 = reachableShare(outcomes, 3, kReachRadiusM);
+}
+
+void planProblems(const Catalog& catalog, const CoverageExperimentOptions& options,
+                  const WorldModel& world, std::uint64_t seed, std::vector<Learnt*> all) {
+  const std::shared_ptr<const Map> map = surveyMap(world);
+  for (int i = 0; i < options.problems; ++i) {
+    const std::uint64_t problem_seed = seed * 1000003 + static_cast<std::uint64_t>(i);
+    const PushProblem problem = randomProblem(catalog, world, options.object, problem_seed);
+    const PushPlanner planner(map, catalog.robot(options.robot), catalog.objectsIn(problem.world),
+                              PushPlannerOptions{});
+    PlanRequest request;
+    request.map_T_goal = problem.map_T_goal;
+    request.map_T_robot = problem.world.map_T_robot;
+    request.seed = problem_seed;
+    request.deadline_s = kDeadlineS;
+    for (const ObjectPlacement& placement : problem.world.objects) {
+      const PlacedObject placed{placement.id, catalog.object(placement.model).name,
+                                placement.map_T_object};
+      if (placement.id == problem.object_id) {
+        request.object = placed;
+      } else {
+        request.obstacles.push_back(placed);
+      }
+    }
+    for (Learnt* learnt : all) {
+      const PlanResult plan = planner.plan(request, learnt->cases);
+      const bool solved = plan.status == PlanStatus::kSolved;
+      learnt->plan_pushes.push_back(solved ? static_cast<int>(plan.plan.pushes.size()) : 0);
+      learnt->measures.planned += solved ? 1.0 / options.problems : 0.0;
+    }
+  }
+}
+
+/// Compared on the problems that both solve: else the better one would count its harder ones.
+void averagePlans(Learnt& a, Learnt& b) {
+  double count = 0.0;
+  for (std::size_t i = 0; i < a.plan_pushes.size(); ++i) {
+    if (a.plan_pushes[i] > 0 && b.plan_pushes[i] > 0) {
+      a.measures.plan_pushes += a.plan_pushes[i];
+      b.measures.plan_pushes += b.plan_pushes[i];
+      count += 1.0;
+    }
+  }
+  a.measures.plan_pushes /= std::max(1.0, count);
+  b.measures.plan_pushes /= std::max(1.0, count);
+}
+
+}  // namespace
+
+MeanInterval meanInterval(const std::vector<double>& values) {
+  CASEPUSH_CHECK(!values.empty(), "no values");
+  const double n = static_cast<double>(values.size());
+  MeanInterval interval;
+  interval.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double half = 0.0;
+  if (values.size() > 1) {
+    double squares = 0.0;
+    for (const double value : values) {
+      squares += (value - interval.mean) * (value - interval.mean);
+    }
+    const double student = kStudent[std::min(values.size() - 2, kStudent.size() - 1)];
+    half = student * std::sqrt(squares / (n - 1.0) / n);
+  }
+  interval.low = interval.mean - half;
+  interval.high = interval.mean + half;
+  return interval;
+}
+
+CoverageExperimentResult coverageExperiment(
+    const Catalog& catalog, const CoverageExperimentOptions& options,
+    const std::function<void(const std::string&)>& progress) {
+  WorldModel world = loadWorld(catalog, options.world);
+  world.robot = options.robot;
+  CoverageExperimentResult result;
+  for (int i = 0; i < options.seeds; ++i) {
+    const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
+    const std::string number = "seed " + std::to_string(seed) + ": ";
+    const auto tell = [&](const std::string& what) {
+      if (progress) {
+        progress(number + what);
+      }
+    };
+    tell("learning at random");
+    Learnt random = learnCases(catalog, options, CoverageStrategy::kRandom, seed);
+    tell("learning spread");
+    Learnt spread = learnCases(catalog, options, CoverageStrategy::kSpread, seed);
+    measureCoverage(random);
+    measureCoverage(spread);
+    tell("planning");
+    planProblems(catalog, options, world, seed, {&random, &spread});
+    averagePlans(random, spread);
+    result.random.push_back(random.measures);
+    result.spread.push_back(spread.measures);
+  }
+  return result;
+}
+
+}  // namespace casepush
