@@ -16,7 +16,7 @@ namespace {
 
 // A first trial is kept if it adds this share of the coverage that was expected of it; what is left
 // of the share after each one that does not.
-constexpr double kAcceptedShare = 0.35;
+constexpr double kAcceptedShare = 0.5;
 constexpr double kRelaxation = 0.8;
 // Pushes from which the scatter of a case can be told.
 constexpr int kEnoughToJudge = 5;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kPeriodS = 0.05;
 // Pushes that the first guess of a gain is worth.
 constexpr double kPriorPushes = 2.0;
-constexpr double kOffRad = 0.9;
+constexpr double kOffRad = 1.1;
 
 }  // namespace
 

@@ -42,7 +42,7 @@ def case_base(tmp_path_factory):
 def test_help_explains_every_command():
     process = casepush("--help")
     assert process.returncode == 0
-    for word in ("learn", "plan", "push", "cases", "world", "bench", "Exit code"):
+    for word in ("learn", "plan", "push", "cases", "world", "bench", "experiment", "Exit code"):
         assert word in process.stdout
     for command in ("learn", "plan", "push", "cases", "world", "bench"):
         assert casepush(command, "--help").returncode == 0
@@ -63,6 +63,35 @@ def test_learns_stores_and_resumes(tmp_path):
     assert len(again["cases"]) == 3
     assert again["cases"][:2] == result["cases"]
     assert "learning case 3/3" in resumed.stderr
+
+
+def test_threads_change_nothing_but_time(tmp_path):
+    learn = ("learn", "--object", "office_chair", "--cases", 2, "--practices", 4, "--seed", 3,
+             "--caster-model", "planar", "--json")
+    runs = [casepush(*learn, "--case-base", tmp_path / f"{jobs}.db", "--jobs", jobs)
+            for jobs in (1, 2, 3)]
+    assert without_timing(runs[0]) == without_timing(runs[1]) == without_timing(runs[2])
+
+
+def test_learns_by_driving(tmp_path):
+    process = casepush("learn", "--object", "office_chair", "--cases", 2, "--practices", 4,
+                       "--reset", "drive", "--caster-model", "planar", "--case-base",
+                       tmp_path / "cases.db", "--json")
+    assert process.returncode == 0, process.stderr
+    result = result_of(process)
+    assert [case["observations"] >= 4 for case in result["cases"]] == [True, True]
+    assert result["collisions"] == 0
+
+
+def test_compares_strategies_of_coverage():
+    process = casepush("experiment", "coverage", "--seeds", 2, "--problems", 1, "--cases", 3,
+                       "--practices", 1, "--json")
+    assert process.returncode == 0, process.stderr
+    result = result_of(process)
+    for strategy in ("random", "spread", "spread_minus_random"):
+        low, high = result[strategy]["mean_distance_tolerances"]["ci95"]
+        assert low <= result[strategy]["mean_distance_tolerances"]["mean"] <= high
+        assert len(result[strategy]["planned"]["seeds"]) == 2
 
 
 def test_same_seed_gives_same_bytes(tmp_path, case_base):
@@ -162,6 +191,10 @@ def bad_inputs(tmp_path, case_base):
         (with_cases + ["--deadline", "nan"], ["--deadline"]),
         (plan + ["--case-base", ""], ["--case-base"]),
         (["cases", "import", "--case-base", tmp_path / "new.db", nan_yaml], ["nan.yaml", "period"]),
+        (["learn", "--object", "office_chair", "--case-base", tmp_path / "l.db", "--coverage", "all"],
+         ["all", "random or spread"]),
+        (["learn", "--object", "office_chair", "--case-base", tmp_path / "l.db", "--world", "office"],
+         ["--world", "--reset drive"]),
         (["learn", "--object", "office_chair", "--case-base", tmp_path / "l.db", "--cases", "0"],
          ["cases"]),
         (["world", "generate", "--size", "1", "--output", tmp_path / "w.yaml"], ["size", "100"]),
