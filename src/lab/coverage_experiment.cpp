@@ -1,17 +1,12 @@
 #include "casepush/lab/coverage_experiment.h"
 
-#include <stdlib.h>
-
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <numeric>
+#include <utility>
 
-#include "casepush/common/check.h"
-#include "casepush/common/input_error.h"
 #include "casepush/execution/displacement_coverage.h"
 #include "casepush/lab/push_run.h"
 #include "casepush/world/static_map.h"
+#include "scratch_case_base.h"
 
 namespace casepush {
 namespace {
@@ -21,34 +16,6 @@ constexpr double kTurnRad = 0.3;
 // Generous, so that a busy machine changes nothing.
 constexpr double kDeadlineS = 120.0;
 
-/// Student's t for 95 % (two-sided) by degrees of freedom, from 1.
-constexpr std::array<double, 30> kStudent = {
-    12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
-    2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
-    2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
-
-/// A folder that is gone when this is.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "casepush_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw InputError(name, "cannot make a temporary folder");
-    }
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 struct Learnt {
   std::vector<Case> cases;
   CoverageMeasures measures;
@@ -57,21 +24,14 @@ struct Learnt {
 
 Learnt learnCases(const Catalog& catalog, const CoverageExperimentOptions& options,
                   CoverageStrategy strategy, std::uint64_t seed) {
-  const TemporaryFolder folder;
-  CaseBase case_base(folder.path() / "cases.db", CaseBase::Access::kCreate);
   LearningOptions learning = options.learning;
   learning.exploration.coverage = strategy;
   learning.exploration.seed = seed;
   learning.lab.simulator.seed = seed;
-  const LearningResult result =
-      learnInLab(catalog, options.object, options.robot, case_base, learning);
-  if (!result.success) {
-    throw InputError("learning " + options.object + " with seed " + std::to_string(seed),
-                     result.explanation);
-  }
+  ScratchLearning done = learnInScratch(catalog, options.object, options.robot, learning);
   Learnt learnt;
-  learnt.cases = case_base.cases();
-  learnt.measures.pushes = result.pushes;
+  learnt.cases = std::move(done.cases);
+  learnt.measures.pushes = done.result.pushes;
   return learnt;
 }
 
@@ -134,25 +94,6 @@ void averagePlans(Learnt& a, Learnt& b) {
 }
 
 }  // namespace
-
-MeanInterval meanInterval(const std::vector<double>& values) {
-  CASEPUSH_CHECK(!values.empty(), "no values");
-  const double n = static_cast<double>(values.size());
-  MeanInterval interval;
-  interval.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double half = 0.0;
-  if (values.size() > 1) {
-    double squares = 0.0;
-    for (const double value : values) {
-      squares += (value - interval.mean) * (value - interval.mean);
-    }
-    const double student = kStudent[std::min(values.size() - 2, kStudent.size() - 1)];
-    half = student * std::sqrt(squares / (n - 1.0) / n);
-  }
-  interval.low = interval.mean - half;
-  interval.high = interval.mean + half;
-  return interval;
-}
 
 CoverageExperimentResult coverageExperiment(
     const Catalog& catalog, const CoverageExperimentOptions& options,

@@ -1,6 +1,8 @@
 #include <memory>
 
 #include "casepush/lab/coverage_experiment.h"
+#include "casepush/lab/mean_interval.h"
+#include "casepush/lab/transfer_experiment.h"
 #include "command.h"
 
 namespace casepush {
@@ -106,6 +108,89 @@ void addCoverage(CLI::App& app, Run& run) {
   command->callback([arguments, &run] { run = [arguments] { return coverage(*arguments); }; });
 }
 
+struct TransferArguments {
+  CommonOptions common;
+  TransferExperimentOptions experiment;
+};
+
+/// One row for each number of practices from `first`.
+nlohmann::ordered_json qualityJson(const std::vector<TransferMeasures>& all,
+                                   std::vector<PredictionQuality> TransferMeasures::*way,
+                                   std::size_t first) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (std::size_t k = first; k < (all.front().*way).size(); ++k) {
+    nlohmann::ordered_json row = {{"practices", k}};
+    const auto add = [&](const char* name, double PredictionQuality::*value) {
+      std::vector<double> values;
+      for (const TransferMeasures& each : all) {
+        values.push_back((each.*way)[k].*value);
+      }
+      row[name] = intervalJson(values);
+    };
+    add("mean_error_tolerances", &PredictionQuality::mean_error);
+    add("sigma_ratio", &PredictionQuality::sigma_ratio);
+    add("surprise_nat", &PredictionQuality::surprise);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+int transfer(const TransferArguments& arguments) {
+  const Stopwatch watch;
+  TransferExperimentOptions options = arguments.experiment;
+  options.seed = arguments.common.seed;
+  ProgressLine line;
+  const std::vector<TransferMeasures> all = transferExperiment(
+      Catalog::standard(), options, [&](const std::string& text) { line.show(text); });
+  std::vector<double> cases, useless;
+  for (const TransferMeasures& each : all) {
+    cases.push_back(each.cases);
+    useless.push_back(each.useless);
+  }
+  printResult({{"success", true},
+               {"from", options.from},
+               {"to", options.to},
+               {"caster_model", toString(options.learning.lab.simulator.caster_model)},
+               {"tests", options.tests},
+               {"cases", cases},
+               {"useless_cases", useless},
+               {"transferred", qualityJson(all, &TransferMeasures::transferred, 0)},
+               {"scratch", qualityJson(all, &TransferMeasures::scratch, 1)},
+               {"seed", arguments.common.seed},
+               {"timing", {{"wall_s", watch.seconds()}}}},
+              arguments.common.json);
+  return kExitSuccess;
+}
+
+void addTransfer(CLI::App& app, Run& run) {
+  auto arguments = std::make_shared<TransferArguments>();
+  TransferExperimentOptions& options = arguments->experiment;
+  options.learning.lab.simulator.caster_model = CasterModel::kPlanar;
+  CLI::App* command = app.add_subcommand(
+      "transfer",
+      "Give the cases of a known object to a new one, practise them there, and compare after each "
+      "practice how well they predict with cases learnt from those practices alone: error of the "
+      "mean [goal tolerances], predicted over real standard deviation, surprise [nat]");
+  addCommonOptions(*command, arguments->common);
+  command->add_option("--from", options.from, "Known object by name or URDF file")
+      ->capture_default_str();
+  command->add_option("--to", options.to, "New object by name or URDF file")->capture_default_str();
+  command->add_option("--seeds", options.seeds, "Case bases to learn and transfer")
+      ->capture_default_str();
+  command->add_option("--practices", options.practices, "Of each transferred case")
+      ->capture_default_str();
+  command->add_option("--tests", options.tests, "Pushes of each case that only judge")
+      ->capture_default_str();
+  command->add_option("--cases", options.learning.exploration.cases, "Cases to learn and transfer")
+      ->capture_default_str();
+  command
+      ->add_option("--learning-practices", options.learning.exploration.practices,
+                   "Pushes per case of the known object")
+      ->capture_default_str();
+  addCasterModelOption(*command, options.learning.lab.simulator.caster_model);
+  command->callback([arguments, &run] { run = [arguments] { return transfer(*arguments); }; });
+}
+
 }  // namespace
 
 void addExperimentCommand(CLI::App& app, Run& run) {
@@ -113,6 +198,7 @@ void addExperimentCommand(CLI::App& app, Run& run) {
       app.add_subcommand("experiment", "Compare ways of learning and planning over many seeds");
   command->require_subcommand(1);
   addCoverage(*command, run);
+  addTransfer(*command, run);
 }
 
 }  // namespace casepush

@@ -94,6 +94,27 @@ def test_compares_strategies_of_coverage():
         assert len(result[strategy]["planned"]["seeds"]) == 2
 
 
+def test_transferred_cases_need_fewer_practices():
+    process = casepush("experiment", "transfer", "--from", "overbed_table", "--to", "utility_cart",
+                       "--seeds", 1, "--cases", 4, "--learning-practices", 6, "--practices", 2,
+                       "--tests", 4, "--json")
+    assert process.returncode == 0, process.stderr
+    result = result_of(process)
+    assert result["cases"][0] + result["useless_cases"][0] == 4
+    transferred = [row["surprise_nat"]["mean"] for row in result["transferred"]]
+    scratch = [row["surprise_nat"]["mean"] for row in result["scratch"]]
+    assert [len(transferred), len(scratch)] == [3, 2]
+    assert transferred[1] < transferred[0]
+    assert transferred[1] < scratch[0]
+
+
+def test_objects_too_different_share_no_cases():
+    process = casepush("experiment", "transfer", "--from", "utility_cart", "--to", "stretcher",
+                       "--seeds", 1, "--cases", 1, "--learning-practices", 1, "--json")
+    assert process.returncode == 2
+    assert "too different to transfer" in process.stderr
+
+
 def test_same_seed_gives_same_bytes(tmp_path, case_base):
     learn = ("learn", "--object", "office_chair", "--cases", 1, "--practices", 3, "--seed", 9)
     runs = [casepush(*learn, "--case-base", tmp_path / name, "--json") for name in ("a.db", "b.db")]
