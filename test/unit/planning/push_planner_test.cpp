@@ -193,8 +193,8 @@ TEST(PushPlanner, doesNotPlanPushesThatTheRobotCannotGetTo) {
 TEST(PushPlanner, saysWhenNothingLeadsToTheGoal) {
   PushPlannerOptions options = quick();
   options.max_nodes = 20;
-  const PlanResult result = plannerFor(furnishedRoom(), options)
-                                ->plan(requestFor(kStart, kGoal), syntheticPushes(14, 7));
+  const PlanResult result =
+      plannerFor(furnishedRoom(), options)->plan(requestFor(kStart, kGoal), syntheticPushes(14, 7));
   EXPECT_EQ(result.status, PlanStatus::kUnreachable);
   EXPECT_NE(result.explanation.find("no plan within 20 poses; raise max_nodes"), std::string::npos)
       << result.explanation;
