@@ -50,7 +50,7 @@ bool isBadRequest(PlanStatus status) {
 
 PlanVerification verify(const Task& task, const PlanRequest& request, const PushPlan& plan) {
   std::vector<PlacedSolid> obstacles;
-  const std::map<std::string, ObjectModel> models = loadModels(task);
+  const std::map<std::string, ObjectModel> models = task.catalog.objectsIn(task.problem.world);
   for (const PlacedObject& obstacle : request.obstacles) {
     obstacles.push_back({models.at(obstacle.model).solid, obstacle.map_T_object, obstacle.id});
   }

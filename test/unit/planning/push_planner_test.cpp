@@ -301,12 +301,13 @@ TEST(PushPlanner, refusesADamagedCase) {
   EXPECT_NE(result.explanation.find("case 2"), std::string::npos) << result.explanation;
 }
 
-/// A search that would take very long: the goal is behind a wall.
+/// A search that would take very long: the seat could pass below the bar, backrest and robot
+/// cannot.
 PlanRequest hopelessRequest() { return requestFor(kStart, kGoal); }
 
 WorldModel dividedRoom() {
   WorldModel world = emptyRoom();
-  world.boxes.push_back(standing("across", 7.5, 7.5, 0.1, 14.9, 1.5));
+  world.boxes.push_back(standing("across", 7.5, 7.5, 0.1, 14.9, 1.5, 0.55));
   return world;
 }
 
