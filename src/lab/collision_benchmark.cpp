@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <sstream>
 
-#include "casepush/common/input_error.h"
 #include "casepush/common/random.h"
+#include "casepush/common/violations.h"
 #include "casepush/world/fcl_checker.h"
 #include "casepush/world/sweep_checker.h"
 #include "thread_time.h"
@@ -237,18 +236,12 @@ class Measurement {
 }  // namespace
 
 void CollisionBenchmarkOptions::validate() const {
-  std::ostringstream violations;
-  const auto require = [&violations](bool ok, const char* key, double value, const char* bound) {
-    if (ok) return;
-    violations << (violations.tellp() > 0 ? "; " : "") << key << " is " << value << ", must be "
-               << bound;
-  };
-  require(rooms >= 1 && rooms <= 1000, "rooms", rooms, "in [1, 1000]");
-  require(tests >= rooms && tests <= 100000000, "tests", tests, "in [rooms, 100000000]");
-  require(motions >= 1 && motions <= 1000, "motions", motions, "in [1, 1000]");
-  require(resolution_m >= 0.02 && resolution_m <= 0.2, "resolution", resolution_m,
-          "in [0.02, 0.2]");
-  if (violations.tellp() > 0) throw InputError("collision benchmark", violations.str());
+  Violations violations;
+  violations.require("rooms", rooms, 1, 1000);
+  violations.require("tests", tests, rooms, 100000000);
+  violations.require("motions", motions, 1, 1000);
+  violations.require("resolution", resolution_m, 0.02, 0.2);
+  violations.throwIfAny("collision benchmark");
 }
 
 CollisionBenchmark measureCollisionChecking(const Catalog& catalog,

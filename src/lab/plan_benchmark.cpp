@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <sstream>
 
-#include "casepush/common/input_error.h"
+#include "casepush/common/violations.h"
 #include "casepush/lab/push_run.h"
 #include "casepush/world/static_map.h"
 
@@ -55,16 +54,11 @@ PlanRun run(const PushPlanner& planner, const PlanRequest& request,
 }  // namespace
 
 void PlanBenchmarkOptions::validate() const {
-  std::ostringstream violations;
-  if (problems < 1 || problems > 10000) {
-    violations << "problems is " << problems << ", must be in [1, 10000]; ";
-  }
-  if (!(deadline_s >= 0.01 && deadline_s <= 3600.0)) {
-    violations << "deadline_s is " << deadline_s << ", must be in [0.01, 3600]; ";
-  }
-  if (planners.empty()) violations << "no planner is given; ";
-  const std::string text = violations.str();
-  if (!text.empty()) throw InputError("plan benchmark", text.substr(0, text.size() - 2));
+  Violations violations;
+  violations.require("problems", problems, 1, 10000);
+  violations.require("deadline", deadline_s, 0.01, 3600.0);
+  violations.require("planners", static_cast<double>(planners.size()), 1, 100);
+  violations.throwIfAny("plan benchmark");
 }
 
 PlanBenchmark comparePlanners(const Catalog& catalog, const std::vector<Case>& cases,

@@ -301,12 +301,14 @@ TEST(PushPlanner, refusesADamagedCase) {
   EXPECT_NE(result.explanation.find("case 2"), std::string::npos) << result.explanation;
 }
 
-/// A search that would take very long: the goal is behind a wall.
-/// Every place can be reached, but no chain of cases hits the goal so closely.
-PlanRequest hopelessRequest() {
-  PlanRequest request = requestFor(kStart, kGoal);
-  request.tolerance = {1e-9, 1e-9};
-  return request;
+/// A search that would take very long: the seat could pass below the bar, backrest and robot
+/// cannot.
+PlanRequest hopelessRequest() { return requestFor(kStart, kGoal); }
+
+WorldModel dividedRoom() {
+  WorldModel world = emptyRoom();
+  world.boxes.push_back(standing("across", 7.5, 7.5, 0.1, 14.9, 1.5, 0.55));
+  return world;
 }
 
 PushPlannerOptions endless() {
@@ -317,7 +319,7 @@ PushPlannerOptions endless() {
 }
 
 TEST(PushPlanner, stopsSoonWhenCancelled) {
-  const auto planner = plannerFor(emptyRoom(), endless());
+  const auto planner = plannerFor(dividedRoom(), endless());
   const auto begin = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point asked;
   bool is_asked = false;
@@ -334,7 +336,7 @@ TEST(PushPlanner, stopsSoonWhenCancelled) {
 }
 
 TEST(PushPlanner, keepsItsDeadline) {
-  const auto planner = plannerFor(emptyRoom(), endless());
+  const auto planner = plannerFor(dividedRoom(), endless());
   PlanRequest request = hopelessRequest();
   request.deadline_s = 0.3;
   const PlanResult result = planner->plan(request, syntheticPushes(14, 7));
