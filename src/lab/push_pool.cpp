@@ -161,7 +161,9 @@ PushPool::Result PushPool::run(const Exploration::Trial& trial,
     results_.clear();
   }
   enqueue(task);
-  const int left = push_case ? options_.exploration.practices - trial.practice_number : 0;
+  // The first push of a transferred case replaces its trajectories: those after it wait for them.
+  const bool is_settled = push_case && push_case->observation_count > 0;
+  const int left = is_settled ? options_.exploration.practices - trial.practice_number : 0;
   for (int i = 0; i < std::min(left, kAheadPerJob * options_.jobs); ++i) {
     ++task.trial.repetition;
     enqueue(task);

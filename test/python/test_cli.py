@@ -73,6 +73,21 @@ def test_threads_change_nothing_but_time(tmp_path):
     assert without_timing(runs[0]) == without_timing(runs[1]) == without_timing(runs[2])
 
 
+def test_threads_change_nothing_for_transferred_cases(tmp_path):
+    first = tmp_path / "1.db"
+    common = ("--case-base", first, "--json")
+    assert casepush("learn", "--object", "utility_cart", "--cases", 1, "--practices", 2,
+                    "--caster-model", "planar", *common).returncode == 0
+    assert casepush("cases", "transfer", "--to", "service_trolley", *common).returncode == 0
+    second = tmp_path / "2.db"
+    shutil.copy(first, second)
+    learnt = [casepush("learn", "--object", "service_trolley", "--cases", 1, "--practices", 4,
+                       "--caster-model", "planar", "--case-base", file, "--jobs", jobs, "--json")
+              for jobs, file in ((1, first), (2, second))]
+    assert result_of(learnt[0])["cases"][0]["observations"] == 4, learnt[0].stderr
+    assert without_timing(learnt[0]) == without_timing(learnt[1])
+
+
 def test_learns_by_driving(tmp_path):
     process = casepush("learn", "--object", "office_chair", "--cases", 2, "--practices", 4,
                        "--reset", "drive", "--caster-model", "planar", "--case-base",
