@@ -50,9 +50,17 @@ class ExecutorNodeTest(unittest.TestCase):
         for client in (cls.push_object, cls.execute_push):
             harness.wait_until(client.action_client.wait_for_server, what="the executor's actions")
         harness.Recorder("map/octomap", Octomap).wait()
+        harness.wait_until(cls.executor_knows_map_and_robot, what="the executor to get ready")
         rospy.wait_for_service("sim/set_pose", timeout=20)
         cls.set_pose = rospy.ServiceProxy("sim/set_pose", SetPoses)
         cls.stop = rospy.ServiceProxy("stop", Trigger)
+
+    @classmethod
+    def executor_knows_map_and_robot(cls):
+        """Without cases it refuses any goal, but for that reason only once it knows the rest."""
+        cls.push_object.send_goal(PushObjectGoal(object_id=harness.OBJECT,
+                                                 goal=harness.pose(2.5, 1.5, 0.5)))
+        return "there are no cases" in harness.result_of(cls.push_object).explanation
 
     @classmethod
     def tearDownClass(cls):
