@@ -56,20 +56,7 @@ void planProblems(const Catalog& catalog, const CoverageExperimentOptions& optio
     const PushProblem problem = randomProblem(catalog, world, options.object, problem_seed);
     const PushPlanner planner(map, catalog.robot(options.robot), catalog.objectsIn(problem.world),
                               PushPlannerOptions{});
-    PlanRequest request;
-    request.map_T_goal = problem.map_T_goal;
-    request.map_T_robot = problem.world.map_T_robot;
-    request.seed = problem_seed;
-    request.deadline_s = kDeadlineS;
-    for (const ObjectPlacement& placement : problem.world.objects) {
-      const PlacedObject placed{placement.id, catalog.object(placement.model).name,
-                                placement.map_T_object};
-      if (placement.id == problem.object_id) {
-        request.object = placed;
-      } else {
-        request.obstacles.push_back(placed);
-      }
-    }
+    const PlanRequest request = requestFor(catalog, problem, problem_seed, kDeadlineS);
     for (Learnt* learnt : all) {
       const PlanResult plan = planner.plan(request, learnt->cases);
       const bool solved = plan.status == PlanStatus::kSolved;

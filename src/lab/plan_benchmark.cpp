@@ -11,25 +11,6 @@
 namespace casepush {
 namespace {
 
-PlanRequest requestFor(const Catalog& catalog, const PushProblem& problem, std::uint64_t seed,
-                       double deadline_s) {
-  PlanRequest request;
-  for (const ObjectPlacement& placement : problem.world.objects) {
-    const PlacedObject placed{placement.id, catalog.object(placement.model).name,
-                              placement.map_T_object};
-    if (placement.id == problem.object_id) {
-      request.object = placed;
-    } else {
-      request.obstacles.push_back(placed);
-    }
-  }
-  request.map_T_goal = problem.map_T_goal;
-  request.map_T_robot = problem.world.map_T_robot;
-  request.seed = seed;
-  request.deadline_s = deadline_s;
-  return request;
-}
-
 PushPlannerOptions optionsFor(PlannerKind kind, bool improve) {
   PushPlannerOptions options = PushPlannerOptions::forPlanner(kind);
   if (!improve) {

@@ -126,4 +126,23 @@ PushProblem randomProblem(const Catalog& catalog, const WorldModel& world,
                                               "; use a larger or emptier world, or give --goal");
 }
 
+PlanRequest requestFor(const Catalog& catalog, const PushProblem& problem, std::uint64_t seed,
+                       double deadline_s) {
+  PlanRequest request;
+  for (const ObjectPlacement& placement : problem.world.objects) {
+    const PlacedObject placed{placement.id, catalog.object(placement.model).name,
+                              placement.map_T_object};
+    if (placement.id == problem.object_id) {
+      request.object = placed;
+    } else {
+      request.obstacles.push_back(placed);
+    }
+  }
+  request.map_T_goal = problem.map_T_goal;
+  request.map_T_robot = problem.world.map_T_robot;
+  request.seed = seed;
+  request.deadline_s = deadline_s;
+  return request;
+}
+
 }  // namespace casepush

@@ -16,24 +16,6 @@ struct PlanArguments {
   bool verify = false;
 };
 
-PlanRequest makeRequest(const Task& task, const PlanArguments& arguments) {
-  PlanRequest request;
-  for (const ObjectPlacement& placement : task.problem.world.objects) {
-    const PlacedObject placed{placement.id, task.catalog.object(placement.model).name,
-                              placement.map_T_object};
-    if (placement.id == task.problem.object_id) {
-      request.object = placed;
-    } else {
-      request.obstacles.push_back(placed);
-    }
-  }
-  request.map_T_goal = task.problem.map_T_goal;
-  request.map_T_robot = task.problem.world.map_T_robot;
-  request.seed = arguments.task.common.seed;
-  request.deadline_s = arguments.deadline_s;
-  return request;
-}
-
 /// Wrong from the start, in contrast to a search without success.
 bool isBadRequest(PlanStatus status) {
   switch (status) {
@@ -65,7 +47,8 @@ int plan(const PlanArguments& arguments) {
   const PushPlannerOptions options = PushPlannerOptions::forPlanner(kind);
   const PushPlanner planner(task.map, task.catalog.robot(task.problem.world.robot),
                             task.catalog.objectsIn(task.problem.world), options);
-  const PlanRequest request = makeRequest(task, arguments);
+  const PlanRequest request =
+      requestFor(task.catalog, task.problem, arguments.task.common.seed, arguments.deadline_s);
   const PlanResult result = planner.plan(request, task.cases);
   if (isBadRequest(result.status)) {
     throw InputError("plan", result.explanation);

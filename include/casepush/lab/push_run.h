@@ -48,12 +48,17 @@ PushProblem randomProblem(const Catalog& catalog, const WorldModel& world,
                           const std::string& object, std::uint64_t seed,
                           double min_distance_m = 3.0, double clearance_m = 0.25);
 
+/// What to ask a planner for to solve a problem; all other objects are obstacles.
+/// @throws InputError from the catalog.
+PlanRequest requestFor(const Catalog& catalog, const PushProblem& problem, std::uint64_t seed,
+                       double deadline_s);
+
 struct PushRunOptions {
   LabOptions lab;
   PushPlannerOptions planner;
   PushTaskOptions task;
   CovarianceFloor floor;
-  bool adapt = true;           ///< In memory only; the case base is not touched.
+  bool adapt = true;  ///< In memory only; the case base is not touched.
   AdaptationOptions adaptation;
   double time_limit_s = 1200.0;
 };
