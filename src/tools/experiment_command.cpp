@@ -32,11 +32,11 @@ nlohmann::ordered_json intervalJson(const std::vector<double>& values) {
   return {{"mean", interval.mean}, {"ci95", {interval.low, interval.high}}, {"seeds", values}};
 }
 
-std::vector<double> column(const std::vector<CoverageMeasures>& all,
-                           double CoverageMeasures::*value) {
+template <typename Measures, typename Value>
+std::vector<double> column(const std::vector<Measures>& all, const Value& value) {
   std::vector<double> values;
-  for (const CoverageMeasures& each : all) {
-    values.push_back(each.*value);
+  for (const Measures& each : all) {
+    values.push_back(value(each));
   }
   return values;
 }
@@ -50,8 +50,9 @@ int coverage(const CoverageArguments& arguments) {
       Catalog::standard(), options, [&](const std::string& text) { line.show(text); });
   nlohmann::ordered_json random, spread, difference;
   for (const Measure& measure : kMeasures) {
-    std::vector<double> a = column(result.random, measure.value);
-    const std::vector<double> b = column(result.spread, measure.value);
+    const auto value = [&](const CoverageMeasures& each) { return each.*measure.value; };
+    std::vector<double> a = column(result.random, value);
+    const std::vector<double> b = column(result.spread, value);
     random[measure.name] = intervalJson(a);
     spread[measure.name] = intervalJson(b);
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -121,11 +122,8 @@ nlohmann::ordered_json qualityJson(const std::vector<TransferMeasures>& all,
   for (std::size_t k = first; k < (all.front().*way).size(); ++k) {
     nlohmann::ordered_json row = {{"practices", k}};
     const auto add = [&](const char* name, double PredictionQuality::*value) {
-      std::vector<double> values;
-      for (const TransferMeasures& each : all) {
-        values.push_back((each.*way)[k].*value);
-      }
-      row[name] = intervalJson(values);
+      row[name] = intervalJson(
+          column(all, [&](const TransferMeasures& each) { return (each.*way)[k].*value; }));
     };
     add("mean_error_tolerances", &PredictionQuality::mean_error);
     add("sigma_ratio", &PredictionQuality::sigma_ratio);
@@ -142,23 +140,19 @@ int transfer(const TransferArguments& arguments) {
   ProgressLine line;
   const std::vector<TransferMeasures> all = transferExperiment(
       Catalog::standard(), options, [&](const std::string& text) { line.show(text); });
-  std::vector<double> cases, useless;
-  for (const TransferMeasures& each : all) {
-    cases.push_back(each.cases);
-    useless.push_back(each.useless);
-  }
-  printResult({{"success", true},
-               {"from", options.from},
-               {"to", options.to},
-               {"caster_model", toString(options.learning.lab.simulator.caster_model)},
-               {"tests", options.tests},
-               {"cases", cases},
-               {"useless_cases", useless},
-               {"transferred", qualityJson(all, &TransferMeasures::transferred, 0)},
-               {"scratch", qualityJson(all, &TransferMeasures::scratch, 1)},
-               {"seed", arguments.common.seed},
-               {"timing", {{"wall_s", watch.seconds()}}}},
-              arguments.common.json);
+  printResult(
+      {{"success", true},
+       {"from", options.from},
+       {"to", options.to},
+       {"caster_model", toString(options.learning.lab.simulator.caster_model)},
+       {"tests", options.tests},
+       {"cases", column(all, [](const TransferMeasures& each) { return each.cases; })},
+       {"useless_cases", column(all, [](const TransferMeasures& each) { return each.useless; })},
+       {"transferred", qualityJson(all, &TransferMeasures::transferred, 0)},
+       {"scratch", qualityJson(all, &TransferMeasures::scratch, 1)},
+       {"seed", arguments.common.seed},
+       {"timing", {{"wall_s", watch.seconds()}}}},
+      arguments.common.json);
   return kExitSuccess;
 }
 
