@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "origin_distance.h"
@@ -65,7 +66,10 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double z
   }
   ApproachVerifier approaches(problem, checker->collisions());
   std::vector<Ban> banned;
-  const auto stop = [&clock] { return clock.isOver(); };
+  const auto stop = [&clock, &made] {
+    clock.report(made.nodes, std::numeric_limits<double>::infinity());
+    return clock.isOver();
+  };
   for (int attempt = 0; attempt < kAttempts && !clock.isOver(); ++attempt) {
     const ChainProblem chain{cases,
                              time,

@@ -77,8 +77,12 @@ std::vector<PreparedCase> prepareFor(const SearchProblem& problem, const PushChe
   return cases;
 }
 
-SearchClock::SearchClock(double deadline_s, std::function<bool()> stop)
-    : begin_(std::chrono::steady_clock::now()), deadline_s_(deadline_s), stop_(std::move(stop)) {}
+SearchClock::SearchClock(double deadline_s, std::function<bool()> stop,
+                         std::function<void(const PlanProgress&)> report)
+    : begin_(std::chrono::steady_clock::now()),
+      deadline_s_(deadline_s),
+      stop_(std::move(stop)),
+      report_(std::move(report)) {}
 
 bool SearchClock::isCancelled() const { return stop_ && stop_(); }
 
@@ -88,6 +92,16 @@ bool SearchClock::isOver(double share) const {
 
 double SearchClock::elapsedS() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void SearchClock::report(int nodes, double best_cost_s) const {
+  constexpr double kPeriod_s = 0.02;
+  if (!report_) return;
+  const double now_s = elapsedS();
+  if (now_s < reported_s_ + kPeriod_s && best_cost_s >= reported_cost_s_) return;
+  reported_s_ = now_s;
+  reported_cost_s_ = best_cost_s;
+  report_({now_s, nodes_ + nodes, best_cost_s});
 }
 
 PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta)
@@ -132,12 +146,19 @@ bool PlanSearch::findFirst(const SearchClock& clock) {
   constexpr int kQuick = 3000;
   const int quick = rrt_.extensionCount() + kQuick;
   rrt_.solve(ob::PlannerTerminationCondition(
-      [this, quick, &clock] { return rrt_.extensionCount() >= quick || clock.isOver(); }));
+      [this, quick, &clock] { return rrt_.extensionCount() >= quick || isOver(clock, 1.0); }));
   if (!rrt_.solutions().empty() || clock.isOver() || isCutOff()) {
     return !rrt_.solutions().empty();
   }
-  rrt_.solve(ob::PlannerTerminationCondition([&clock] { return clock.isOver(); }));
+  rrt_.solve(ob::PlannerTerminationCondition([this, &clock] { return isOver(clock, 1.0); }));
   return !rrt_.solutions().empty();
+}
+
+bool PlanSearch::isOver(const SearchClock& clock, double share) const {
+  const auto& solutions = rrt_.solutions();
+  clock.report(rrt_.tree().size(), solutions.empty() ? std::numeric_limits<double>::infinity()
+                                                     : rrt_.tree().node(solutions.front()).cost_s);
+  return clock.isOver(share);
 }
 
 bool PlanSearch::isCutOff() const {
@@ -153,7 +174,7 @@ void PlanSearch::improve(const SearchClock& clock) {
   }
   const int limit = rrt_.extensionCount() + problem_.options.improvement_extensions;
   const ob::PlannerTerminationCondition stop([this, limit, &clock] {
-    return rrt_.extensionCount() >= limit || clock.isOver(kImprovementShare);
+    return rrt_.extensionCount() >= limit || isOver(clock, kImprovementShare);
   });
   const auto wanted = static_cast<std::size_t>(problem_.options.solutions);
   std::size_t before = 0;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,20 +15,31 @@
 
 namespace casepush {
 
-/// Ends a search: somebody's wish or a time limit.
+/// Ends a search: somebody's wish or a time limit. Tells how far it has come.
 class SearchClock {
  public:
-  SearchClock(double deadline_s, std::function<bool()> stop);
+  SearchClock(double deadline_s, std::function<bool()> stop,
+              std::function<void(const PlanProgress&)> report = {});
 
   bool isCancelled() const;
   /// True once cancelled or `share` of the time until the deadline has passed.
   bool isOver(double share = 1.0) const;
   double elapsedS() const;
 
+  /// Reports if a while has passed since the last report or the best cost went down.
+  /// @param nodes  Of the present search.
+  void report(int nodes, double best_cost_s) const;
+  /// Nodes of searches that ended, to which those of the next one are added.
+  void addNodes(int nodes) const { nodes_ += nodes; }
+
  private:
   std::chrono::steady_clock::time_point begin_;
   double deadline_s_;
   std::function<bool()> stop_;
+  std::function<void(const PlanProgress&)> report_;
+  mutable int nodes_ = 0;
+  mutable double reported_s_ = 0.0;
+  mutable double reported_cost_s_ = std::numeric_limits<double>::infinity();
 };
 
 /// What a search works with; all must outlive it.
@@ -85,6 +97,7 @@ class PlanSearch {
  private:
   bool findFirst(const SearchClock& clock);
   bool isCutOff() const;
+  bool isOver(const SearchClock& clock, double share) const;  ///< Reports, too.
   void improve(const SearchClock& clock);
   /// The first node of the chain that the robot cannot push to; -1 if there is none; nothing if
   /// the clock ran out.

@@ -220,8 +220,9 @@ PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
 PushPlanner::~PushPlanner() = default;
 
 PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>& cases,
-                             const std::function<bool()>& stop) const {
-  const SearchClock clock(request.deadline_s, stop);
+                             const std::function<bool()>& stop,
+                             const std::function<void(const PlanProgress&)>& report) const {
+  const SearchClock clock(request.deadline_s, stop, report);
   if (const auto problem = checkRequest(request, data_->objects)) {
     return failed(problem->status, problem->explanation);
   }
@@ -275,6 +276,7 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
   for (const double zeta : zetaLevels(options.zeta)) {
     const Outcome outcome = searchOnce(problem, &push_checker, zeta, clock, &result);
     result.collision_checks = push_checker.checkCount();
+    clock.addNodes(outcome.nodes);
     if (outcome.end == PlanSearch::End::kFound) {
       result.status = PlanStatus::kSolved;
       result.plan = outcome.plan;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -37,6 +38,14 @@ struct PushPlannerOptions {
   void validate() const;  ///< @throws InputError listing every violation.
 };
 
+/// How far a search has come.
+struct PlanProgress {
+  double elapsed_s = 0.0;  ///< Wall time since the call.
+  int nodes = 0;           ///< Poses of the object reached so far, in all searches of the call.
+  double best_cost_s = std::numeric_limits<double>::infinity();  ///< Expected time of the best
+                                                                 ///< plan; infinite before one.
+};
+
 /// Plans chains of cases that bring an object to a goal, achievable for object and robot.
 ///
 /// Exp-RRT (paper algorithm 1) with the choices of docs/method.md. Each push is checked with the
@@ -56,8 +65,11 @@ class PushPlanner {
 
   /// @param cases  Those of the request's object and this robot count; others are ignored.
   /// @param stop   Asked often; planning ends within 20 ms once it says true.
+  /// @param report Called about every 20 ms while planning and when a better plan is found, from
+  ///               the caller's thread; it should return at once.
   PlanResult plan(const PlanRequest& request, const std::vector<Case>& cases,
-                  const std::function<bool()>& stop = {}) const;
+                  const std::function<bool()>& stop = {},
+                  const std::function<void(const PlanProgress&)>& report = {}) const;
 
   /// Does the rest of a plan still work if its first push starts from `map_T_object`? Re-anchors
   /// the chain at the observed pose and checks collisions (at the plan's zeta) and goal. Empty

@@ -335,6 +335,23 @@ TEST(PushPlanner, stopsSoonWhenCancelled) {
   EXPECT_LT(secondsSince(asked), 0.05);
 }
 
+TEST(PushPlanner, reportsItsProgress) {
+  const auto planner = plannerFor(furnishedRoom(), quick());
+  std::vector<PlanProgress> reports;
+  const PlanResult result =
+      planner->plan(requestFor(kStart, kGoal), syntheticPushes(14, 7), {},
+                    [&reports](const PlanProgress& progress) { reports.push_back(progress); });
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.explanation;
+  ASSERT_FALSE(reports.empty());
+  for (std::size_t i = 1; i < reports.size(); ++i) {
+    EXPECT_GE(reports[i].elapsed_s, reports[i - 1].elapsed_s);
+    EXPECT_GE(reports[i].nodes, reports[i - 1].nodes);
+  }
+  EXPECT_GT(reports.back().nodes, 0);
+  EXPECT_LE(reports.back().nodes, result.nodes);
+  EXPECT_TRUE(std::isfinite(reports.back().best_cost_s));
+}
+
 TEST(PushPlanner, keepsItsDeadline) {
   const auto planner = plannerFor(dividedRoom(), endless());
   PlanRequest request = hopelessRequest();
