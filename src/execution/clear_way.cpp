@@ -1,0 +1,200 @@
+#include "casepush/execution/clear_way.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "casepush/common/violations.h"
+#include "watches.h"
+
+namespace casepush {
+
+void ClearWayOptions::validate() const {
+  push.validate();
+  Violations violations;
+  violations.require("max_pushes", max_pushes, 1, 100000);
+  violations.require("max_depth", max_depth, 1, 100);
+  violations.require("look_timeout_s", look_timeout_s, 0.1, 3600.0);
+  violations.throwIfAny("clearing options");
+}
+
+struct ClearWay::Data {
+  Data(PushPlan plan, RobotModel robot_model, ClearWayServices outside, ClearWayOptions all)
+      : robot(std::move(robot_model)),
+        services(std::move(outside)),
+        options(std::move(all)),
+        ways{std::move(plan)},
+        rest(options.push) {}
+
+  RobotModel robot;
+  ClearWayServices services;
+  ClearWayOptions options;
+  std::vector<PushPlan> ways;  ///< The plan, then those of the obstacles that are being cleared.
+  RestWatch rest;
+  std::optional<ExecutePush> push;
+  double looking_since_s = -1.0;
+  int pushes = 0;
+  std::string text = "looking what is in the way";
+  std::string stuck;
+  BehaviourStatus status = BehaviourStatus::kRunning;
+
+  Tick run(const Observation& observation);
+  Tick pushOn(const Observation& observation);
+  bool isOnTheWay(const std::string& id) const;
+  std::optional<PlacedObject> nextBlocker(const Observation& observation) const;
+  void decide(const Observation& observation);
+  void clear(const PlacedObject& obstacle, const Observation& observation);
+  ClearingResult search(const PlacedObject& obstacle, const Observation& observation) const;
+  bool seesAtRest(const std::string& id, const Observation& observation);
+  void startPush();
+  void end(BehaviourStatus how, const std::string& why);
+  void getStuck(const std::string& id, const std::string& why);
+};
+
+void ClearWay::Data::end(BehaviourStatus how, const std::string& why) {
+  status = how;
+  text = why;
+}
+
+void ClearWay::Data::getStuck(const std::string& id, const std::string& why) {
+  stuck = id;
+  end(BehaviourStatus::kFailed, id + " cannot be pushed out of the way: " + why);
+}
+
+bool ClearWay::Data::isOnTheWay(const std::string& id) const {
+  return std::any_of(ways.begin(), ways.end(),
+                     [&id](const PushPlan& way) { return way.object.id == id; });
+}
+
+// Of the way of the last plan on the stack.
+std::optional<PlacedObject> ClearWay::Data::nextBlocker(const Observation& observation) const {
+  for (const std::string& id : services.blockers(ways.back(), observation)) {
+    const ObjectState* object = usableObject(observation, id);
+    if (object != nullptr && !isOnTheWay(id))
+      return PlacedObject{id, object->model, object->map_T_object};
+  }
+  return std::nullopt;
+}
+
+ClearingResult ClearWay::Data::search(const PlacedObject& obstacle,
+                                      const Observation& observation) const {
+  ClearingRequest request;
+  request.obstacle = obstacle;
+  request.ways = ways;
+  request.standing = otherObjects(observation, obstacle.id);
+  request.map_T_robot = observation.map_T_robot;
+  const ClearingResult alone = services.clear(request);
+  if (alone.found || static_cast<int>(ways.size()) >= options.max_depth) return alone;
+  // Others may be in its way in turn.
+  const auto last = std::remove_if(request.standing.begin(), request.standing.end(),
+                                   [this](const PlacedObject& other) {
+                                     return !isOnTheWay(other.id) && services.is_movable(other);
+                                   });
+  if (last == request.standing.end()) return alone;
+  request.standing.erase(last, request.standing.end());
+  return services.clear(request);
+}
+
+bool ClearWay::Data::seesAtRest(const std::string& id, const Observation& observation) {
+  const ObjectState* object = usableObject(observation, id);
+  if (object != nullptr && rest.isAtRest(*object)) return true;
+  if (looking_since_s < 0.0) looking_since_s = observation.stamp_s;
+  if (observation.stamp_s - looking_since_s > options.look_timeout_s) {
+    getStuck(id, "it is not seen at rest");
+  }
+  return false;
+}
+
+void ClearWay::Data::clear(const PlacedObject& obstacle, const Observation& observation) {
+  text = "looking at " + obstacle.id + ", which is in the way";
+  if (!seesAtRest(obstacle.id, observation)) return;
+  rest.reset();
+  looking_since_s = -1.0;
+  if (pushes >= options.max_pushes) {
+    getStuck(obstacle.id, "still there after " + std::to_string(pushes) + " pushes");
+    return;
+  }
+  const ClearingResult found = search(obstacle, observation);
+  if (!found.found || found.plan.pushes.empty()) {
+    getStuck(obstacle.id, found.explanation);
+    return;
+  }
+  ways.push_back(found.plan);
+}
+
+// One step down or up the stack of ways; what is in the way of the last one comes first.
+void ClearWay::Data::decide(const Observation& observation) {
+  if (const std::optional<PlacedObject> blocker = nextBlocker(observation)) {
+    clear(*blocker, observation);
+  } else if (ways.size() == 1) {
+    end(BehaviourStatus::kSucceeded, "the way is clear");
+  } else {
+    startPush();
+  }
+}
+
+void ClearWay::Data::startPush() {
+  const PushPlan plan = std::move(ways.back());
+  ways.pop_back();  // Planned anew from where the obstacle comes to rest.
+  const std::vector<Case> cases = services.cases(plan.object.model);
+  const auto found = std::find_if(cases.begin(), cases.end(), [&plan](const Case& each) {
+    return each.id == plan.pushes.front().case_id;
+  });
+  if (found == cases.end()) {
+    getStuck(plan.object.id, "a case of its plan is not known here");
+    return;
+  }
+  text = "clearing " + plan.object.id + " out of the way";
+  push.emplace(plan.object.id, *found, robot, services.approach(plan.object.id), options.push);
+}
+
+Tick ClearWay::Data::pushOn(const Observation& observation) {
+  Tick tick = push->tick(observation);
+  if (!push->report()) return tick;
+  const PushReport report = *push->report();
+  push.reset();
+  ++pushes;  // Also those that came to nothing: clearing must end.
+  services.on_report(report);
+  if (report.outcome == PushOutcome::kRobotLost || report.outcome == PushOutcome::kCancelled) {
+    end(BehaviourStatus::kFailed, report.explanation);
+  }
+  return {};
+}
+
+Tick ClearWay::Data::run(const Observation& observation) {
+  if (push) return pushOn(observation);
+  decide(observation);
+  return {};
+}
+
+ClearWay::ClearWay(PushPlan way, RobotModel robot, ClearWayServices services,
+                   ClearWayOptions options) {
+  options.validate();
+  data_ = std::make_unique<Data>(std::move(way), std::move(robot), std::move(services),
+                                 std::move(options));
+}
+
+ClearWay::~ClearWay() = default;
+
+Tick ClearWay::tick(const Observation& observation) {
+  Tick tick;
+  if (data_->status == BehaviourStatus::kRunning) tick = data_->run(observation);
+  tick.status = data_->status;
+  if (tick.status != BehaviourStatus::kRunning) tick.command = Command{};
+  return tick;
+}
+
+std::string ClearWay::describe() const {
+  return data_->push ? data_->text + ": " + data_->push->describe() : data_->text;
+}
+
+void ClearWay::cancel() {
+  if (data_->push) data_->push->cancel();
+  data_->end(BehaviourStatus::kFailed, "cancelled");
+}
+
+int ClearWay::pushes() const { return data_->pushes; }
+
+const std::string& ClearWay::stuckObstacle() const { return data_->stuck; }
+
+}  // namespace casepush
