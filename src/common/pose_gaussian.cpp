@@ -11,12 +11,11 @@ namespace casepush {
 
 std::array<Pose2, kSigmaPointCount> sigmaPoints(const PoseGaussian& gaussian, double zeta) {
   CASEPUSH_CHECK(zeta >= 0.0, "zeta = " << zeta);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(gaussian.covariance);
+  const Eigen::Matrix3d root = covarianceRoot(gaussian.covariance);
   std::array<Pose2, kSigmaPointCount> points;
   points[0] = gaussian.mean;
   for (int i = 0; i < 3; ++i) {
-    const double spread = zeta * std::sqrt(std::max(0.0, solver.eigenvalues()(i)));
-    const Eigen::Vector3d offset = spread * solver.eigenvectors().col(i);
+    const Eigen::Vector3d offset = zeta * root.col(i);
     points[1 + i] = gaussian.mean * expSe2(offset);
     points[4 + i] = gaussian.mean * expSe2(-offset);
   }
@@ -40,6 +39,18 @@ bool isCovariance(const Eigen::Matrix3d& matrix) {
 
 PoseGaussian transform(const Pose2& a_T_b, const PoseGaussian& b_gaussian) {
   return {a_T_b * b_gaussian.mean, b_gaussian.covariance};
+}
+
+PoseGaussian compound(const PoseGaussian& a_gaussian_b, const PoseGaussian& b_gaussian_c) {
+  const Eigen::Matrix3d carry = adjointSe2(b_gaussian_c.mean.inverse());
+  const Eigen::Matrix3d sum =
+      carry * a_gaussian_b.covariance * carry.transpose() + b_gaussian_c.covariance;
+  return {a_gaussian_b.mean * b_gaussian_c.mean, 0.5 * (sum + sum.transpose())};
+}
+
+Eigen::Matrix3d covarianceRoot(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 }  // namespace casepush

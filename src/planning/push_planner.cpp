@@ -9,6 +9,7 @@
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
 #include "casepush/common/violations.h"
+#include "casepush/model/plan_scatter.h"
 #include "chain_plan.h"
 #include "plan_request.h"
 #include "plan_search.h"
@@ -280,6 +281,7 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
     if (outcome.end == PlanSearch::End::kFound) {
       result.status = PlanStatus::kSolved;
       result.plan = outcome.plan;
+      compoundPushes(&result.plan);
       result.explanation = solvedText(outcome.expected_s, result.plan, options.zeta);
       return result;
     }
@@ -350,6 +352,7 @@ PushPlanner::Continuation PushPlanner::continuePlan(
   result.plan.object.map_T_object = map_T_object;
   result.explanation = data_->chain(&result.plan, cases, &checker);
   result.valid = result.explanation.empty();
+  compoundPushes(&result.plan);
   return result;
 }
 

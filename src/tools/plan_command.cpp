@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 
 #include "casepush/common/input_error.h"
@@ -40,6 +41,12 @@ PlanVerification verify(const Task& task, const PlanRequest& request, const Push
                     task.catalog.robot(task.problem.world.robot), plan, task.cases);
 }
 
+/// Standard deviations along and across the object's heading and of the heading.
+nlohmann::ordered_json sigmaJson(const Eigen::Matrix3d& covariance) {
+  const Eigen::Vector3d sigma = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return {{"x_m", sigma.x()}, {"y_m", sigma.y()}, {"yaw_deg", sigma.z() * 180.0 / M_PI}};
+}
+
 int plan(const PlanArguments& arguments) {
   const Stopwatch watch;
   const Task task = prepareTask(arguments.task);
@@ -57,7 +64,8 @@ int plan(const PlanArguments& arguments) {
   for (const PlannedPush& push : result.plan.pushes) {
     pushes.push_back({{"case", push.case_id},
                       {"start", poseJson(push.map_T_start)},
-                      {"outcome", poseJson(push.map_outcome.mean)}});
+                      {"outcome", poseJson(push.map_outcome.mean)},
+                      {"compounded_sigma", sigmaJson(push.map_compounded.covariance)}});
   }
   const bool solved = result.status == PlanStatus::kSolved;
   nlohmann::ordered_json verification;
@@ -75,6 +83,7 @@ int plan(const PlanArguments& arguments) {
                {"planner", toString(kind)},
                {"pushes", result.plan.pushes.size()},
                {"plan_length_m", result.plan.lengthM()},
+               {"goal_probability", result.plan.goal_probability},
                {"nodes", result.nodes},
                {"collision_checks", result.collision_checks},
                {"start", poseJson(request.object.map_T_object)},

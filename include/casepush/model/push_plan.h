@@ -28,7 +28,12 @@ struct GoalTolerance {
 struct PlannedPush {
   std::int64_t case_id = 0;
   Pose2 map_T_start;         ///< Where the object stands before the push (phi_S in phi_G).
-  PoseGaussian map_outcome;  ///< Where it is expected to rest.
+  PoseGaussian map_outcome;  ///< Where it is expected to rest if it starts exactly there.
+  /// Where it is expected to rest if the pushes before it scatter, too, and nobody plans anew; the
+  /// covariance is in the frame of the mean. See compoundPushes().
+  PoseGaussian map_compounded{};
+  /// Probability that object or robot collides in this push; see PushPlan::collision_probability.
+  double collision_probability = 0.0;
 };
 
 /// A chain of pushes.
@@ -38,6 +43,18 @@ struct PushPlan {
   GoalTolerance tolerance;
   std::vector<PlannedPush> pushes;
   double zeta = 3.0;  ///< Spread of the sigma points that every push was checked with.
+
+  /// Of a plan made with chance constraints: what `collision_probability` may be at most. Nothing
+  /// if the sigma points of `zeta` were checked instead.
+  std::optional<double> max_collision_probability;
+
+  /// Of a plan made with chance constraints: estimated probability that any of its pushes collides,
+  /// with the robot looking where the object is after each push.
+  double collision_probability = 0.0;
+
+  /// Probability that the last push ends in the goal region if all pushes are executed as planned
+  /// and nobody plans anew. See compoundPushes().
+  double goal_probability = 0.0;
 
   double lengthM() const;  ///< Sum of the distances between successive resting poses.
 };
@@ -78,6 +95,8 @@ struct PlanResult {
   PushPlan plan;
   int nodes = 0;  ///< Tree size.
   int collision_checks = 0;
+  double expected_s = 0.0;  ///< Time that the plan's execution will take, with its risks.
+  double bound = 0.0;       ///< The plan costs at most this times the cheapest one; 0: unknown.
   double planning_s = 0.0;  ///< Wall time; the only field that a seed does not fix.
   std::vector<TreeEdge> tree;
 };

@@ -100,5 +100,36 @@ TEST(Transform, movesTheMeanAndKeepsTheBodyCovariance) {
   }
 }
 
+TEST(Compound, isTheProductOfIndependentPosesToFirstOrder) {
+  Random random(4);
+  const auto draw = [&random](const PoseGaussian& gaussian) {
+    const Eigen::Vector3d normal(random.normal(1.0), random.normal(1.0), random.normal(1.0));
+    return gaussian.mean * expSe2(covarianceRoot(gaussian.covariance) * normal);
+  };
+  const PoseGaussian a{Pose2(1.0, -2.0, 2.5), randomCovariance(&random)};
+  const PoseGaussian b{Pose2(0.7, 0.3, -1.2), randomCovariance(&random)};
+  const PoseGaussian c = compound(a, b);
+  EXPECT_LT(distance(c.mean, a.mean * b.mean), 1e-12);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  constexpr int kDraws = 40000;
+  for (int i = 0; i < kDraws; ++i) {
+    const Eigen::Vector3d e = logSe2(c.mean.inverse() * draw(a) * draw(b));
+    spread += e * e.transpose() / kDraws;
+  }
+  EXPECT_LT((spread - c.covariance).norm(), 0.04 * spread.norm());
+}
+
+TEST(CovarianceRoot, isARootAlsoOfSingularOnes) {
+  Random random(5);
+  Eigen::Matrix3d covariance = randomCovariance(&random);
+  EXPECT_LT(
+      (covarianceRoot(covariance) * covarianceRoot(covariance).transpose() - covariance).norm(),
+      1e-12);
+  covariance = Eigen::Vector3d(0.1, 0.0, 0.2).asDiagonal();
+  EXPECT_LT(
+      (covarianceRoot(covariance) * covarianceRoot(covariance).transpose() - covariance).norm(),
+      1e-12);
+}
+
 }  // namespace
 }  // namespace casepush
