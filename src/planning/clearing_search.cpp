@@ -78,21 +78,23 @@ class Expansion {
       const double step_s = from.push < 0 ? problem_.time.first(object_T_robot, push)
                                           : problem_.time.after(from.push, push);
       nodes_.push_back({to, id, push, from.cost_s + step_s});
-      const double distance_m = worstDistance(from.map_T_obstacle, push_case);
-      if (distance_m >= problem_.needed_m) {
-        candidates_.push_back({std::min(distance_m, problem_.wanted_m), nodes_.back().cost_s,
-                               static_cast<int>(nodes_.size()) - 1});
-      }
+      const double way_m = worst(problem_.way_distance_m, from.map_T_obstacle, push_case);
+      if (way_m < problem_.needed_m) continue;
+      const double others_m = worst(problem_.others_distance_m, from.map_T_obstacle, push_case);
+      candidates_.push_back({std::min({way_m, others_m, problem_.wanted_m}), nodes_.back().cost_s,
+                             static_cast<int>(nodes_.size()) - 1});
     }
   }
 
-  double worstDistance(const Pose2& from, const PreparedCase& push_case) const {
-    double distance_m = problem_.distance_m(from * push_case.start_outcome.mean);
+  /// At the mean outcome and its sigma points; exact only as far as it is needed at all.
+  double worst(const std::function<double(const Pose2&)>& distance, const Pose2& from,
+               const PreparedCase& push_case) const {
+    double worst_m = distance(from * push_case.start_outcome.mean);
     for (const Pose2& sigma : push_case.start_T_sigma) {
-      if (distance_m < problem_.needed_m) break;
-      distance_m = std::min(distance_m, problem_.distance_m(from * sigma));
+      if (worst_m < problem_.needed_m) break;
+      worst_m = std::min(worst_m, distance(from * sigma));
     }
-    return distance_m;
+    return worst_m;
   }
 
   bool takeBest(ClearingChain* chain) {

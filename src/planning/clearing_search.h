@@ -19,9 +19,9 @@ struct ClearingProblem {
   double gyration_radius_m;
   int max_nodes;
   double wanted_m;  ///< Standing farther off than this is no better.
-  double needed_m;  ///< Standing nearer than this is still in the way.
-  /// Distance from the way and from everything that may have to move later [m].
-  std::function<double(const Pose2& map_T_obstacle)> distance_m;
+  double needed_m;  ///< Standing nearer to the way than this is still in it.
+  std::function<double(const Pose2& map_T_obstacle)> way_distance_m;
+  std::function<double(const Pose2& map_T_obstacle)> others_distance_m;  ///< From other obstacles.
   /// Can the robot get from push `previous` (-1: from where it stands) to push `next`?
   std::function<bool(const Pose2& map_T_obstacle, int previous, int next)> can_approach;
 };
@@ -31,7 +31,7 @@ struct ClearingChain {
   bool exhausted = false;   ///< Nothing was left to search.
   std::vector<int> pushes;  ///< Indices into the cases.
   double cost_s = 0.0;      ///< Expected time.
-  double distance_m = 0.0;  ///< Of the obstacle at its end, at its worst sigma point.
+  double distance_m = 0.0;  ///< Of the obstacle at its end from way and others, at its worst.
   int nodes = 0;
 };
 

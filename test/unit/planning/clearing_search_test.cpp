@@ -34,6 +34,7 @@ class ClearingSearch : public ::testing::Test {
             0.6,
             0.05,
             [this](const Pose2& pose) { return way_.distance(outline_, pose, 2.0); },
+            [](const Pose2&) { return 2.0; },
             [](const Pose2&, int, int) { return true; }};
   }
 
@@ -102,6 +103,18 @@ TEST_F(ClearingSearch, LeavesOutWhatTheRobotCannotGetTo) {
   EXPECT_NE(other.pushes.front(), free.pushes.front());
   restricted.can_approach = [](const Pose2&, int, int) { return false; };
   EXPECT_FALSE(searchClearing(restricted, never_).found);
+}
+
+TEST_F(ClearingSearch, KeepsAwayFromOtherObstaclesIfItCan) {
+  furnish(emptyRoom());
+  ClearingProblem beside = problem();
+  const Pose2 other(7.5, 9.0, 0.0);  // North of the way.
+  beside.others_distance_m = [&other](const Pose2& pose) { return distance(pose, other) - 0.7; };
+  const ClearingChain chain = searchClearing(beside, never_);
+  ASSERT_TRUE(chain.found);
+  Pose2 pose = beside.map_T_start;
+  for (const int push : chain.pushes) pose = pose * cases_[push].start_outcome.mean;
+  EXPECT_LT(pose.y(), 7.5);
 }
 
 TEST_F(ClearingSearch, InACorridorOnlyItsEndIsOutOfTheWay) {
