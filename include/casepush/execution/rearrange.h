@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "casepush/execution/push_task.h"
+
+namespace casepush {
+
+/// Goals of several objects. Ids differ.
+struct RearrangeGoal {
+  std::vector<PushTaskGoal> tasks;
+  double time_limit_s = 3600.0;  ///< For all of them, by the observations' stamps.
+};
+
+struct RearrangeOptions {
+  int max_rounds = 3;            ///< Tasks that failed, or whose object was moved, are done again.
+  double plan_deadline_s = 2.0;  ///< Wall time for each plan that the order is chosen by.
+  double look_timeout_s = 10.0;  ///< Wait for all objects to be seen.
+  void validate() const;         ///< @throws InputError listing every violation.
+};
+
+/// All are required.
+struct RearrangeServices {
+  PlanClient* plans = nullptr;  ///< Must outlive the behaviour.
+  std::function<std::unique_ptr<PushTask>(const PushTaskGoal&)> make_task;
+  /// Ids of the objects that the plan would hit.
+  std::function<std::vector<std::string>(const PushPlan&, const std::vector<PlacedObject>&)>
+      in_the_way;
+};
+
+/// An order of `count` things that keeps as many wishes "first before second" as possible; of equal
+/// ones the one nearest to the given order. Exact for up to 8, beyond that the least blocked one is
+/// taken next again and again.
+std::vector<int> bestOrder(int count, const std::vector<std::pair<int, int>>& wishes);
+
+/// Brings several objects to their goals, one after the other.
+///
+/// Each object's way is planned as if the others were not there. An object that stands on the way
+/// of another goes before it; one whose goal lies on the way of another goes after it. Whatever an
+/// order cannot avoid is left to the push tasks, which go around or clear the way. Tasks that
+/// failed and objects that were moved again get another round.
+class Rearrange : public Behaviour {
+ public:
+  /// @throws InputError from the options, if a service is missing, if there is no goal or an object
+  ///   has two.
+  Rearrange(RearrangeGoal goal, RearrangeServices services, RearrangeOptions options);
+  ~Rearrange() override;
+
+  Tick tick(const Observation& observation) override;
+  std::string describe() const override;
+  void cancel();
+
+  /// How far each goal has come, in the order of RearrangeGoal::tasks.
+  struct Item {
+    std::string object_id;
+    PushTaskStatus status = PushTaskStatus::kRunning;  ///< kRunning also before its turn.
+    std::string explanation;
+    int attempts = 0;
+    int pushes = 0;
+  };
+  const std::vector<Item>& items() const;
+  const std::vector<int>& order() const;  ///< Of the present round; empty before it is known.
+  const PushTask* task() const;           ///< The one that runs; nullptr if none does.
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace casepush

@@ -1,0 +1,277 @@
+#include "casepush/execution/rearrange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "casepush/common/input_error.h"
+#include "casepush/common/violations.h"
+#include "watches.h"
+
+namespace casepush {
+namespace {
+
+void checkGoals(const std::vector<PushTaskGoal>& tasks) {
+  if (tasks.empty()) throw InputError("rearrange", "there is no goal");
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (tasks[k].object_id == tasks[i].object_id) {
+        throw InputError("rearrange",
+                         tasks[i].object_id + " has two goals; give one for each object");
+      }
+    }
+  }
+}
+
+bool contains(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+}  // namespace
+
+void RearrangeOptions::validate() const {
+  Violations violations;
+  violations.require("max_rounds", max_rounds, 1, 1000);
+  violations.require("plan_deadline_s", plan_deadline_s, 0.01, 3600.0);
+  violations.require("look_timeout_s", look_timeout_s, 0.1, 3600.0);
+  violations.throwIfAny("rearrange options");
+}
+
+struct Rearrange::Data {
+  enum class Stage { kLook, kOrder, kTasks, kDone };
+
+  Data(RearrangeGoal wanted, RearrangeServices outside, const RearrangeOptions& all)
+      : goal(std::move(wanted)), services(std::move(outside)), options(all) {
+    for (const PushTaskGoal& each : goal.tasks) {
+      items.emplace_back();
+      items.back().object_id = each.object_id;
+    }
+  }
+
+  RearrangeGoal goal;
+  RearrangeServices services;
+  RearrangeOptions options;
+  Stage stage = Stage::kLook;
+  BehaviourStatus status = BehaviourStatus::kRunning;
+  std::string text = "looking for the objects";
+  std::vector<Item> items;
+  std::vector<int> left;   ///< Goals of this round.
+  std::vector<int> order;  ///< Of this round.
+  std::vector<std::optional<PushPlan>> plans;
+  std::size_t next = 0;  ///< Plan to ask for, then task to run.
+  bool asked = false;
+  int round = 0;
+  std::unique_ptr<PushTask> task;
+  std::optional<double> began_s;
+  double stage_began_s = 0.0;
+
+  Tick run(const Observation& observation);
+  void look(const Observation& observation);
+  void beginRound(const Observation& observation);
+  void plan(const Observation& observation);
+  void chooseOrder(const Observation& observation);
+  Tick runTask(const Observation& observation);
+  std::vector<int> unmet(const Observation& observation) const;
+  void end(BehaviourStatus how, const std::string& why);
+  std::string failures() const;
+};
+
+void Rearrange::Data::end(BehaviourStatus how, const std::string& why) {
+  if (stage == Stage::kOrder && asked) services.plans->cancel();
+  stage = Stage::kDone;
+  status = how;
+  text = why;
+  task.reset();
+}
+
+std::vector<int> Rearrange::Data::unmet(const Observation& observation) const {
+  std::vector<int> result;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const PushTaskGoal& wanted = goal.tasks[i];
+    const ObjectState* object = usableObject(observation, wanted.object_id);
+    const bool is_met =
+        object != nullptr && wanted.tolerance.isMet(wanted.map_T_goal, object->map_T_object);
+    if (!is_met) result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+void Rearrange::Data::look(const Observation& observation) {
+  const auto unseen =
+      std::find_if(goal.tasks.begin(), goal.tasks.end(), [&](const PushTaskGoal& each) {
+        return usableObject(observation, each.object_id) == nullptr;
+      });
+  const bool may_wait = observation.stamp_s - stage_began_s <= options.look_timeout_s;
+  if (unseen != goal.tasks.end() && may_wait) {
+    text = "looking for " + unseen->object_id;
+    return;
+  }
+  beginRound(observation);  // Who is still unseen fails in its own task, which says so.
+}
+
+void Rearrange::Data::beginRound(const Observation& observation) {
+  left = unmet(observation);
+  if (left.empty()) {
+    end(BehaviourStatus::kSucceeded, "all objects are at their goals");
+    return;
+  }
+  if (round++ >= options.max_rounds) {
+    end(BehaviourStatus::kFailed, failures());
+    return;
+  }
+  stage = Stage::kOrder;
+  text = "choosing the order";
+  plans.assign(left.size(), std::nullopt);
+  order.clear();
+  next = 0;
+  asked = false;
+}
+
+std::string Rearrange::Data::failures() const {
+  std::string list = "after " + std::to_string(options.max_rounds) + " rounds not at its goal:";
+  for (const int i : left) list += " " + items[i].object_id + " (" + items[i].explanation + ")";
+  return list;
+}
+
+// As if no object that has a goal of its own stood around.
+void Rearrange::Data::plan(const Observation& observation) {
+  if (next == left.size()) {
+    chooseOrder(observation);
+    return;
+  }
+  const PushTaskGoal& wanted = goal.tasks[left[next]];
+  const ObjectState* object = usableObject(observation, wanted.object_id);
+  if (object == nullptr || !services.plans->isAlive()) {
+    ++next;
+    return;
+  }
+  if (!asked) {
+    PlanRequest request;
+    request.object = {object->id, object->model, object->map_T_object};
+    request.map_T_goal = wanted.map_T_goal;
+    request.tolerance = wanted.tolerance;
+    request.map_T_robot = observation.map_T_robot;
+    for (const PlacedObject& other : otherObjects(observation, object->id)) {
+      const bool has_goal = std::any_of(items.begin(), items.end(), [&other](const Item& item) {
+        return item.object_id == other.id;
+      });
+      if (!has_goal) request.obstacles.push_back(other);
+    }
+    request.seed = wanted.seed;
+    request.deadline_s = options.plan_deadline_s;
+    services.plans->request(request);
+    asked = true;
+    return;
+  }
+  if (const std::optional<PlanResult> result = services.plans->poll()) {
+    if (result->status == PlanStatus::kSolved) plans[next] = result->plan;
+    asked = false;
+    ++next;
+  }
+}
+
+void Rearrange::Data::chooseOrder(const Observation& observation) {
+  std::vector<std::pair<int, int>> wishes;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (!plans[i]) continue;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const PushTaskGoal& other = goal.tasks[left[k]];
+      const ObjectState* object = usableObject(observation, other.object_id);
+      if (k == i || object == nullptr) continue;
+      const auto blocks = [&](const Pose2& pose) {
+        const PlacedObject there{object->id, object->model, pose};
+        return contains(services.in_the_way(*plans[i], {there}), object->id);
+      };
+      const int a = static_cast<int>(i);
+      const int b = static_cast<int>(k);
+      if (blocks(object->map_T_object)) wishes.emplace_back(b, a);
+      if (blocks(other.map_T_goal)) wishes.emplace_back(a, b);
+    }
+  }
+  for (const int which : bestOrder(static_cast<int>(left.size()), wishes)) {
+    order.push_back(left[which]);
+  }
+  stage = Stage::kTasks;
+  next = 0;
+}
+
+Tick Rearrange::Data::runTask(const Observation& observation) {
+  if (!task) {
+    if (next == order.size()) {
+      beginRound(observation);
+      return {};
+    }
+    task = services.make_task(goal.tasks[order[next]]);
+    ++items[order[next]].attempts;
+  }
+  Tick tick = task->tick(observation);
+  Item& item = items[order[next]];
+  text = item.object_id + ": " + task->describe();
+  if (tick.status == BehaviourStatus::kRunning) return tick;
+  item.status = task->status();
+  item.explanation = task->describe();
+  item.pushes += task->progress().pushes;
+  task.reset();
+  ++next;
+  if (item.status == PushTaskStatus::kRobotLost || item.status == PushTaskStatus::kPlannerGone) {
+    end(BehaviourStatus::kFailed, text);  // The others would fare no better.
+  }
+  return {};
+}
+
+Tick Rearrange::Data::run(const Observation& observation) {
+  if (!std::isfinite(observation.stamp_s)) {
+    return task ? runTask(observation) : Tick{};
+  }
+  if (!began_s) {
+    began_s = observation.stamp_s;
+    stage_began_s = observation.stamp_s;
+  }
+  if (observation.stamp_s - *began_s > goal.time_limit_s) {
+    end(BehaviourStatus::kFailed, "time is up: " + text);
+    return {};
+  }
+  switch (stage) {
+    case Stage::kLook:
+      look(observation);
+      break;
+    case Stage::kOrder:
+      plan(observation);
+      break;
+    case Stage::kTasks:
+      return runTask(observation);
+    case Stage::kDone:
+      break;
+  }
+  return {};
+}
+
+Rearrange::Rearrange(RearrangeGoal goal, RearrangeServices services, RearrangeOptions options) {
+  options.validate();
+  checkGoals(goal.tasks);
+  if (services.plans == nullptr || !services.make_task || !services.in_the_way) {
+    throw InputError("rearrange", "plans, make_task and in_the_way are required");
+  }
+  data_ = std::make_unique<Data>(std::move(goal), std::move(services), options);
+}
+
+Rearrange::~Rearrange() = default;
+
+Tick Rearrange::tick(const Observation& observation) {
+  Tick tick;
+  if (data_->status == BehaviourStatus::kRunning) tick = data_->run(observation);
+  tick.status = data_->status;
+  if (tick.status != BehaviourStatus::kRunning) tick.command = Command{};
+  return tick;
+}
+
+std::string Rearrange::describe() const { return data_->text; }
+
+void Rearrange::cancel() { data_->end(BehaviourStatus::kFailed, "cancelled"); }
+
+const std::vector<Rearrange::Item>& Rearrange::items() const { return data_->items; }
+const std::vector<int>& Rearrange::order() const { return data_->order; }
+const PushTask* Rearrange::task() const { return data_->task.get(); }
+
+}  // namespace casepush
