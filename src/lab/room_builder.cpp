@@ -1,0 +1,111 @@
+#include "room_builder.h"
+
+#include <cmath>
+#include <utility>
+
+namespace casepush {
+namespace {
+
+constexpr double kWallHeight_m = 1.5;
+constexpr double kPieceGap_m = 0.05;  // Between pieces of furniture.
+constexpr double kWayStep_m = 0.1;
+constexpr int kPlaceDraws = 20000;
+constexpr double kDegree = M_PI / 180.0;
+
+}  // namespace
+
+double toCentimetre(double value_m) { return std::round(value_m * 100.0) / 100.0; }
+
+double drawHeading(Random& random, double step_deg) {
+  return std::round(random.uniform(-180.0, 180.0) / step_deg) * step_deg * kDegree;
+}
+
+StaticBox wall(const std::string& name, double length_x_m, double length_y_m, double x_m,
+               double y_m) {
+  StaticBox box;
+  box.name = name;
+  box.box.size_m << length_x_m, length_y_m, kWallHeight_m;
+  box.map_T_box.translation() << x_m, y_m, 0.5 * kWallHeight_m;
+  return box;
+}
+
+RoomBuilder::RoomBuilder(const std::string& name, double size_m, Random* random)
+    : size_m_(size_m), random_(*random) {
+  world_.name = name;
+  world_.min_m.setZero();
+  world_.max_m.setConstant(size_m);
+  const double half_m = 0.5 * kWall_m;
+  const double inside_m = size_m - 2.0 * kWall_m;
+  world_.boxes = {
+      wall("wall_south", size_m, kWall_m, 0.5 * size_m, half_m),
+      wall("wall_north", size_m, kWall_m, 0.5 * size_m, size_m - half_m),
+      wall("wall_west", kWall_m, inside_m, half_m, 0.5 * size_m),
+      wall("wall_east", kWall_m, inside_m, size_m - half_m, 0.5 * size_m),
+  };
+}
+
+void RoomBuilder::keepFree(const Eigen::Vector2d& centre_m, double radius_m) {
+  free_.push_back({centre_m, radius_m});
+}
+
+void RoomBuilder::keepLegFree(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
+                              double radius_m) {
+  const int steps = 1 + static_cast<int>((to_m - from_m).norm() / kWayStep_m);
+  for (int i = 0; i <= steps; ++i) keepFree(from_m + (to_m - from_m) * i / steps, radius_m);
+}
+
+void RoomBuilder::addWall(const StaticBox& box) {
+  const Eigen::Vector2d half_m = 0.5 * box.box.size_m.head<2>();
+  const Eigen::Vector3d centre = box.map_T_box.translation();
+  placed_.push_back(transformed(Pose2(centre.x(), centre.y(), 0.0), rectangle(-half_m, half_m)));
+  world_.boxes.push_back(box);
+}
+
+double RoomBuilder::furnish(double density) {
+  const double floor_m2 = size_m_ * size_m_;
+  double covered_m2 = 0.0;
+  for (int draw = 0; covered_m2 < density * floor_m2 && draw < kPlaceDraws; ++draw) {
+    const FurniturePiece piece = randomFurniture(random_);
+    if (tryPlace(piece)) covered_m2 += piece.areaM2();
+  }
+  return covered_m2 / floor_m2;
+}
+
+bool RoomBuilder::tryPlace(const FurniturePiece& piece) {
+  const double inside_m = size_m_ - kWall_m;
+  const double x = toCentimetre(random_.uniform(kWall_m, inside_m));
+  const double y = toCentimetre(random_.uniform(kWall_m, inside_m));
+  // Most furniture stands square to the walls.
+  const Pose2 pose(x, y, drawHeading(random_, random_.chance(0.7) ? 90.0 : 5.0));
+  const Shadow shadow = transformed(pose, rectangle(-0.5 * piece.size_m, 0.5 * piece.size_m));
+  for (int i = 0; i < shadow.count; ++i) {
+    if (shadow.points[i].minCoeff() < kWall_m || shadow.points[i].maxCoeff() > inside_m) {
+      return false;
+    }
+  }
+  for (const FreeDisc& disc : free_) {
+    if (separation(shadow, disc.centre_m) < disc.radius_m) return false;
+  }
+  for (const Shadow& other : placed_) {
+    if (closerThan(shadow, other, kPieceGap_m)) return false;
+  }
+  placed_.push_back(shadow);
+  ++pieces_;
+  add(piece, pose);
+  return true;
+}
+
+void RoomBuilder::add(const FurniturePiece& piece, const Pose2& pose) {
+  const std::string name = piece.kind + "_" + std::to_string(pieces_);
+  for (StaticBox box : piece.boxes) {
+    const Eigen::Vector3d centre = box.map_T_box.translation();
+    const Eigen::Vector2d map_p = pose * Eigen::Vector2d(centre.head<2>());
+    box.name = name + box.name;
+    box.map_T_box.translation() << map_p.x(), map_p.y(), centre.z();
+    box.map_T_box.linear() =
+        Eigen::AngleAxisd(pose.yaw(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    world_.boxes.push_back(std::move(box));
+  }
+}
+
+}  // namespace casepush
