@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "casepush/common/input_error.h"
+#include "casepush/common/random.h"
 #include "casepush/world/fcl_checker.h"
 
 namespace casepush {
@@ -35,6 +36,8 @@ class Verifier {
     ++result_.poses;
     if (fcl_.collides(robot_, pose)) fail(what);
   }
+  bool isHit() const { return !result_.valid; }
+  void forget() { result_ = {}; }
   void fail(const std::string& what) {
     if (result_.valid) result_.explanation = what;
     result_.valid = false;
@@ -50,25 +53,69 @@ class Verifier {
   PlanVerification result_;
 };
 
-void testPush(const Case& push_case, const Pose2& map_T_start, double zeta, const std::string& name,
-              Verifier* verifier) {
-  for (const Pose2& pose : sigmaPoints(push_case.start_outcome, zeta)) {
-    verifier->testObject(map_T_start * pose, name + ": the object collides at a sigma point");
-  }
+/// @param deviation  Of the object at the end, in the frame of the outcome; grows up to there.
+void testMotion(const Case& push_case, const Pose2& map_T_start, double step_m,
+                const Eigen::Vector3d& deviation, const std::string& name, Verifier* verifier) {
+  const double count = static_cast<double>(push_case.steps.size());
   for (std::size_t i = 0; i < push_case.steps.size(); ++i) {
     const CaseStep& to = push_case.steps[i];
     const CaseStep& from = push_case.steps[i > 0 ? i - 1 : 0];
     const double way_m = std::max(distance(from.start_T_object, to.start_T_object),
                                   distance(from.start_T_robot(), to.start_T_robot()));
-    const int pieces = std::max(1, static_cast<int>(std::ceil(way_m / kStep_m)));
+    const int pieces = std::max(1, static_cast<int>(std::ceil(way_m / step_m)));
     for (int k = 1; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
-      verifier->testObject(map_T_start * interpolate(from.start_T_object, to.start_T_object, t),
-                           name + ": the object collides on its way");
+      const Pose2 off = expSe2((static_cast<double>(i) + t) / count * deviation);
+      verifier->testObject(
+          map_T_start * interpolate(from.start_T_object, to.start_T_object, t) * off,
+          name + ": the object collides on its way");
       verifier->testRobot(map_T_start * interpolate(from.start_T_robot(), to.start_T_robot(), t),
                           name + ": the robot collides on its way");
     }
   }
+}
+
+void testPush(const Case& push_case, const Pose2& map_T_start, double zeta, const std::string& name,
+              Verifier* verifier) {
+  for (const Pose2& pose : sigmaPoints(push_case.start_outcome, zeta)) {
+    verifier->testObject(map_T_start * pose, name + ": the object collides at a sigma point");
+  }
+  testMotion(push_case, map_T_start, kStep_m, Eigen::Vector3d::Zero(), name, verifier);
+}
+
+const Case& caseOf(const PushPlan& plan, std::size_t push, const std::vector<Case>& cases) {
+  const auto found = std::find_if(cases.begin(), cases.end(), [&](const Case& push_case) {
+    return push_case.id == plan.pushes[push].case_id;
+  });
+  if (found == cases.end()) {
+    throw InputError("plan", "push " + std::to_string(push + 1) + " needs case " +
+                                 std::to_string(plan.pushes[push].case_id) +
+                                 ", which is not there");
+  }
+  return *found;
+}
+
+/// One random execution; true if something collides.
+bool drawCollides(const PushPlan& plan, const std::vector<Case>& cases, std::size_t horizon,
+                  Random* random, Verifier* verifier, Pose2* map_T_end) {
+  verifier->forget();
+  std::vector<Pose2> moves;  // What each push really does to the object, in its start frame.
+  *map_T_end = plan.object.map_T_object;
+  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
+    const Case& push_case = caseOf(plan, i, cases);
+    const Eigen::Vector3d normal(random->normal(1.0), random->normal(1.0), random->normal(1.0));
+    const Eigen::Vector3d deviation = covarianceRoot(push_case.start_outcome.covariance) * normal;
+    const std::size_t first = i + 1 > horizon ? i + 1 - horizon : 0;
+    Pose2 start = plan.pushes[first].map_T_start;
+    for (std::size_t before = first; before < i; ++before) start = start * moves[before];
+    moves.push_back(push_case.start_outcome.mean * expSe2(deviation));
+    *map_T_end = *map_T_end * moves.back();
+    if (verifier->isHit()) continue;
+    verifier->testObject(start * moves.back(), "outcome");
+    constexpr double kCoarse_m = 0.03;
+    if (!verifier->isHit()) testMotion(push_case, start, kCoarse_m, deviation, "", verifier);
+  }
+  return verifier->isHit();
 }
 
 }  // namespace
@@ -80,23 +127,44 @@ PlanVerification verifyPlan(const Map& map, const std::vector<PlacedSolid>& obst
   Pose2 pose = plan.object.map_T_object;
   for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
     const std::string name = "push " + std::to_string(i + 1);
-    const auto found = std::find_if(cases.begin(), cases.end(), [&](const Case& push_case) {
-      return push_case.id == plan.pushes[i].case_id;
-    });
-    if (found == cases.end()) {
-      throw InputError("plan", name + " needs case " + std::to_string(plan.pushes[i].case_id) +
-                                   ", which is not there");
-    }
+    const Case& push_case = caseOf(plan, i, cases);
     constexpr double kSame = 1e-6;
     if (distance(pose, plan.pushes[i].map_T_start) > kSame ||
         std::abs(yawDifference(pose, plan.pushes[i].map_T_start)) > kSame) {
       verifier.fail(name + ": does not start where the push before it ends");
     }
-    testPush(*found, pose, plan.zeta, name, &verifier);
-    pose = pose * found->start_outcome.mean;
+    testPush(push_case, pose, plan.zeta, name, &verifier);
+    pose = pose * push_case.start_outcome.mean;
   }
   if (!plan.tolerance.isMet(plan.map_T_goal, pose)) verifier.fail("the plan misses the goal");
   return verifier.result();
+}
+
+RiskVerification verifyRisk(const Map& map, const std::vector<PlacedSolid>& obstacles,
+                            const ObjectModel& object, const RobotModel& robot,
+                            const PushPlan& plan, const std::vector<Case>& cases, int horizon,
+                            int draws, std::uint64_t seed) {
+  Verifier verifier(map, obstacles, object, robot, plan.object.map_T_object);
+  Random random = Random::stream(seed, "plan verification");
+  RiskVerification result;
+  result.draws = draws;
+  const double n = draws;
+  for (int draw = 0; draw < draws; ++draw) {
+    Pose2 end;
+    const bool hit =
+        drawCollides(plan, cases, static_cast<std::size_t>(horizon), &random, &verifier, &end);
+    result.collision_probability += hit ? 1.0 / n : 0.0;
+    result.goal_probability += plan.tolerance.isMet(plan.map_T_goal, end) ? 1.0 / n : 0.0;
+  }
+  constexpr double kZ = 1.96;
+  const double p = result.collision_probability;
+  const double centre = (p + 0.5 * kZ * kZ / n) / (1.0 + kZ * kZ / n);
+  const double half =
+      kZ / (1.0 + kZ * kZ / n) * std::sqrt(p * (1.0 - p) / n + 0.25 * kZ * kZ / (n * n));
+  result.low = std::max(0.0, centre - half);
+  result.high = std::min(1.0, centre + half);
+  result.valid = result.low <= plan.max_collision_probability.value_or(1.0);
+  return result;
 }
 
 }  // namespace casepush

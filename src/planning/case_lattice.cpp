@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -11,61 +11,74 @@
 namespace casepush {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// A pose that was reached and whose pushes are all safe.
 struct Node {
   Pose2 map_T_object;
   int parent;
   int push;
   double cost_s;
+  double risk;  ///< Of the pushes so far, see riskOf().
 };
 
-/// An edge that was not looked at yet.
-struct Edge {
+/// A node to be expanded, or an edge that was not looked at yet.
+struct Entry {
   double priority_s;
-  double cost_s;
+  double cost_s;       ///< Of an edge without its risk: a lower bound.
+  double remaining_s;  ///< From its end, at least.
+  int node;            ///< -1: an edge.
   int parent;
   int push;
 
-  bool operator>(const Edge& other) const {
-    return std::tie(priority_s, cost_s, parent, push) >
-           std::tie(other.priority_s, other.cost_s, other.parent, other.push);
+  bool operator>(const Entry& other) const {
+    return std::tie(priority_s, cost_s, node, parent, push) >
+           std::tie(other.priority_s, other.cost_s, other.node, other.parent, other.push);
   }
 };
 
-/// One weighted A* search, its edges checked when their turn comes (lazy weighted A*, Cohen et al.
-/// 2014): most never come up.
 class Lattice {
  public:
   using Ban = std::function<bool(const Pose2&, int, int)>;
 
   Lattice(const ChainProblem& problem, const LatticeOptions& options, const OriginDistance& map,
-          double weight, const Ban& is_banned)
-      : problem_(problem), options_(options), map_(map), weight_(weight), is_banned_(is_banned) {}
+          const Ban& is_banned)
+      : problem_(problem), options_(options), map_(map), is_banned_(is_banned) {
+    for (const PreparedCase& push_case : problem.cases) {
+      const double turn_rad = std::abs(push_case.start_outcome.mean.yaw());
+      const double least_s = problem.handling_s + push_case.duration_s;
+      best_turn_rate_rps_ = std::max(best_turn_rate_rps_, turn_rad / least_s);
+    }
+    add({problem.map_T_start, -1, -1, 0.0, 0.0});
+  }
 
-  ChainResult search(const std::function<bool()>& stop) {
-    ChainResult result;
-    const int start = settle({problem_.map_T_start, -1, -1, 0.0});
-    int goal = problem_.tolerance.isMet(problem_.map_T_goal, problem_.map_T_start) ? start : -1;
-    if (goal < 0) expand(start);
-    while (goal < 0 && !open_.empty() && static_cast<int>(nodes_.size()) < problem_.max_nodes &&
-           !stop()) {
-      const Edge edge = open_.top();
-      open_.pop();
-      const int added = follow(edge);
-      if (added < 0) continue;
-      if (problem_.tolerance.isMet(problem_.map_T_goal, nodes_[added].map_T_object)) {
-        goal = added;
+  /// Searches on with a smaller weight. False once `stop` says so or the nodes are used up.
+  bool improve(double weight, const std::function<bool()>& stop) {
+    startRound(weight);
+    while (!open_.empty() && open_.front().priority_s < bestCost()) {
+      if (static_cast<int>(nodes_.size()) >= problem_.max_nodes || stop()) return false;
+      std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+      const Entry entry = open_.back();
+      open_.pop_back();
+      if (entry.cost_s + entry.remaining_s >= bestCost()) continue;
+      if (entry.node >= 0) {
+        expand(entry.node);
       } else {
-        expand(added);
+        follow(entry);
       }
     }
+    return true;
+  }
+
+  ChainResult result() const {
+    ChainResult result;
     result.nodes = static_cast<int>(nodes_.size());
-    result.exhausted = goal < 0 && open_.empty();
-    if (goal < 0) return result;
-    result.found = true;
-    result.cost_s = nodes_[goal].cost_s;
-    result.bound = weight_;
-    for (int id = goal; nodes_[id].parent >= 0; id = nodes_[id].parent) {
+    result.found = goal_ >= 0;
+    result.exhausted = !result.found && open_.empty() && postponed_.empty();
+    if (!result.found) return result;
+    result.cost_s = bestCost();
+    result.bound = provenBound();
+    for (int id = goal_; nodes_[id].parent >= 0; id = nodes_[id].parent) {
       result.pushes.push_back(nodes_[id].push);
     }
     std::reverse(result.pushes.begin(), result.pushes.end());
@@ -73,7 +86,12 @@ class Lattice {
   }
 
  private:
-  std::uint64_t cell(const Pose2& pose) const {
+  struct Cell {
+    int node = -1;         ///< The cheapest that reached it.
+    int expanded_in = -1;  ///< Round in which one of its nodes was expanded last.
+  };
+
+  std::uint64_t cellOf(const Pose2& pose) const {
     constexpr std::int64_t kOffset = 1 << 20;  // Maps indices of either sign into 21 bits.
     const auto index = [](double value) {
       return static_cast<std::uint64_t>(std::llround(value) + kOffset) & 0x1fffff;
@@ -82,55 +100,145 @@ class Lattice {
            index(pose.yaw() * problem_.gyration_radius_m / options_.cell_m);
   }
 
+  double bestCost() const { return goal_ >= 0 ? nodes_[goal_].cost_s : kInfinity; }
+
+  // Whatever is cheaper than the best chain passes through something that still waits.
+  double provenBound() const {
+    double least_s = bestCost();
+    for (const std::vector<Entry>* waiting : {&open_, &postponed_}) {
+      for (const Entry& entry : *waiting) {
+        least_s = std::min(least_s, entry.cost_s + entry.remaining_s);
+      }
+    }
+    return least_s > 0.0 ? bestCost() / least_s : 1.0;
+  }
+
+  // Never more than it takes: over the shortest way by the fastest case, and for what is left to
+  // turn by the one that turns fastest.
   double remaining(const Pose2& pose) const {
     const double straight_m = distance(pose, problem_.map_T_goal) - problem_.tolerance.position_m;
-    return problem_.time.lowerBound(std::max(straight_m, map_.at(pose.position())));
+    const double way_s = problem_.time.lowerBound(std::max(straight_m, map_.at(pose.position())));
+    const double turn_rad =
+        std::abs(yawDifference(pose, problem_.map_T_goal)) - problem_.tolerance.yaw_rad;
+    if (turn_rad <= 0.0) return way_s;
+    return std::max(way_s, best_turn_rate_rps_ > 0.0 ? turn_rad / best_turn_rate_rps_ : kInfinity);
   }
 
-  // -1 if something as cheap stands in the cell already.
-  int settle(const Node& node) {
-    const auto [entry, is_new] = settled_.try_emplace(cell(node.map_T_object), node.cost_s);
-    if (!is_new && entry->second <= node.cost_s) return -1;
-    entry->second = node.cost_s;
-    nodes_.push_back(node);
-    return static_cast<int>(nodes_.size()) - 1;
-  }
-
-  int follow(const Edge& edge) {
-    const Pose2 from = nodes_[edge.parent].map_T_object;
-    const PreparedCase& push_case = problem_.cases[edge.push];
-    const Pose2 to = from * push_case.start_outcome.mean;
-    const auto settled = settled_.find(cell(to));
-    if (settled != settled_.end() && settled->second <= edge.cost_s) return -1;
-    if (is_banned_(from, nodes_[edge.parent].push, edge.push) ||
-        !problem_.checker.isSafe(push_case, from)) {
-      return -1;
+  void startRound(double weight) {
+    ++round_;
+    weight_ = weight;
+    open_.insert(open_.end(), postponed_.begin(), postponed_.end());
+    postponed_.clear();
+    for (Entry& entry : open_) {
+      entry.priority_s = entry.cost_s + weight * entry.remaining_s;
     }
-    return settle({to, edge.parent, edge.push, edge.cost_s});
+    std::make_heap(open_.begin(), open_.end(), std::greater<>());
+  }
+
+  void wait(Entry entry) {
+    if (!std::isfinite(entry.remaining_s)) return;
+    entry.priority_s = entry.cost_s + weight_ * entry.remaining_s;
+    open_.push_back(entry);
+    std::push_heap(open_.begin(), open_.end(), std::greater<>());
+  }
+
+  bool isGoal(const Pose2& pose) const {
+    return problem_.tolerance.isMet(problem_.map_T_goal, pose);
+  }
+
+  void add(const Node& node) {
+    const int id = static_cast<int>(nodes_.size());
+    if (isGoal(node.map_T_object)) {
+      if (node.cost_s >= bestCost()) return;
+      nodes_.push_back(node);
+      goal_ = id;
+      return;
+    }
+    Cell& cell = cells_[cellOf(node.map_T_object)];
+    if (cell.node >= 0 && nodes_[cell.node].cost_s <= node.cost_s) return;
+    cell.node = id;
+    nodes_.push_back(node);
+    const Entry entry{0.0, node.cost_s, remaining(node.map_T_object), id, node.parent, node.push};
+    // No cell is expanded twice in a round (INCONS in the paper of ARA*).
+    if (cell.expanded_in == round_) {
+      postponed_.push_back(entry);
+    } else {
+      wait(entry);
+    }
+  }
+
+  Eigen::Matrix3d startCovariance(int id) {
+    recent_.clear();
+    const auto wanted = static_cast<std::size_t>(problem_.risk->options().horizon - 1);
+    for (; nodes_[id].parent >= 0 && recent_.size() < wanted; id = nodes_[id].parent) {
+      recent_.push_back(nodes_[id].push);
+    }
+    return problem_.risk->startCovariance(recent_);
+  }
+
+  // Adds to `node` what its last push risks; false if that is too much.
+  bool addRisk(Node* node) {
+    const Pose2& from = nodes_[node->parent].map_T_object;
+    const Eigen::Matrix3d start = startCovariance(node->parent);
+    const PushRisk& risk = *problem_.risk;
+    const double most = riskOf(problem_.max_collision_probability) - node->risk;
+    const double collision =
+        risk.collisionProbability(node->push, from, start, probabilityOf(most));
+    if (riskOf(collision) > most) return false;
+    node->risk += riskOf(collision);
+    double failure = collision;
+    if (isGoal(node->map_T_object)) {
+      failure +=
+          risk.missProbability(node->push, from, start, problem_.map_T_goal, problem_.tolerance);
+    }
+    node->cost_s += risk.options().recovery_s * failure;
+    return true;
+  }
+
+  void follow(const Entry& edge) {
+    const Node& parent = nodes_[edge.parent];
+    const Pose2 from = parent.map_T_object;
+    const PreparedCase& push_case = problem_.cases[edge.push];
+    Node node{from * push_case.start_outcome.mean, edge.parent, edge.push, edge.cost_s,
+              parent.risk};
+    const auto cell = cells_.find(cellOf(node.map_T_object));
+    const bool is_late = cell != cells_.end() && cell->second.node >= 0 &&
+                         nodes_[cell->second.node].cost_s <= node.cost_s;
+    if ((is_late && !isGoal(node.map_T_object)) || is_banned_(from, parent.push, edge.push)) return;
+    const bool is_safe =
+        problem_.risk != nullptr ? addRisk(&node) : problem_.checker.isSafe(push_case, from);
+    if (is_safe) add(node);
   }
 
   void expand(int id) {
     const Node node = nodes_[id];
+    Cell& cell = cells_.at(cellOf(node.map_T_object));
+    if (cell.node != id) return;  // A cheaper one came.
+    cell.expanded_in = round_;
     const Pose2 object_T_robot = node.map_T_object.inverse() * problem_.map_T_robot;
     for (int push = 0; push < static_cast<int>(problem_.cases.size()); ++push) {
       const double step_s = node.push < 0 ? problem_.time.first(object_T_robot, push)
                                           : problem_.time.after(node.push, push);
       const Pose2 to = node.map_T_object * problem_.cases[push].start_outcome.mean;
-      const double remaining_s = remaining(to);
-      if (!std::isfinite(remaining_s)) continue;
       const double cost_s = node.cost_s + step_s;
-      open_.push({cost_s + weight_ * remaining_s, cost_s, id, push});
+      const double remaining_s = remaining(to);
+      if (cost_s + remaining_s < bestCost()) wait({0.0, cost_s, remaining_s, -1, id, push});
     }
   }
 
   const ChainProblem& problem_;
   const LatticeOptions& options_;
   const OriginDistance& map_;
-  double weight_;
   const Ban& is_banned_;
+  double best_turn_rate_rps_ = 0.0;
+  int round_ = 0;
+  double weight_ = 1.0;
+  int goal_ = -1;  ///< The cheapest node in the goal region.
   std::vector<Node> nodes_;
-  std::unordered_map<std::uint64_t, double> settled_;  // cost of the cheapest in each cell
-  std::priority_queue<Edge, std::vector<Edge>, std::greater<>> open_;
+  std::unordered_map<std::uint64_t, Cell> cells_;
+  std::vector<Entry> open_;       ///< A heap, the least priority first.
+  std::vector<Entry> postponed_;  ///< For the next round.
+  std::vector<int> recent_;       ///< Scratch.
 };
 
 }  // namespace
@@ -139,19 +247,11 @@ ChainResult searchLattice(const ChainProblem& problem, const LatticeOptions& opt
                           const OriginDistance& map,
                           const std::function<bool(const Pose2&, int, int)>& is_banned,
                           const std::function<bool()>& stop) {
-  ChainResult best;
-  int nodes = 0;
+  Lattice lattice(problem, options, map, is_banned);
   for (const double weight : options.weights) {
-    Lattice lattice(problem, options, map, weight, is_banned);
-    const ChainResult result = lattice.search(stop);
-    nodes += result.nodes;
-    const bool is_better = result.found && (!best.found || result.cost_s <= best.cost_s);
-    if (is_better || !best.found) best = result;
-    if (best.found && result.found) best.bound = std::min(best.bound, weight);
-    if (!result.found || stop()) break;
+    if (!lattice.improve(weight, stop)) break;
   }
-  best.nodes = nodes;
-  return best;
+  return lattice.result();
 }
 
 }  // namespace casepush

@@ -27,12 +27,13 @@ struct Ban {
 };
 
 PushPlan makePlan(const SearchProblem& problem, const std::vector<PreparedCase>& cases,
-                  const std::vector<int>& pushes, double zeta) {
+                  const std::vector<int>& pushes, const SafetyLevel& safety) {
   PushPlan plan;
   plan.object = problem.request.object;
   plan.map_T_goal = problem.request.map_T_goal;
   plan.tolerance = problem.request.tolerance;
-  plan.zeta = zeta;
+  plan.zeta = safety.zeta;
+  plan.max_collision_probability = safety.max_collision_probability;
   Pose2 pose = plan.object.map_T_object;
   for (const int push : pushes) {
     plan.pushes.push_back({cases[push].id, pose, transform(pose, cases[push].start_outcome)});
@@ -43,10 +44,11 @@ PushPlan makePlan(const SearchProblem& problem, const std::vector<PreparedCase>&
 
 }  // namespace
 
-ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double zeta,
+ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
                     const SearchClock& clock) {
   const PlanRequest& request = problem.request;
-  const std::vector<PreparedCase> cases = prepareFor(problem, *checker, zeta);
+  const std::vector<PreparedCase> cases = prepareFor(problem, *checker, safety.zeta);
+  const PushRisk risk(problem.cases, cases, checker, problem.options.risk);
   const PushTime time(cases, problem.options.time);
   ChainPlan made;
   const bool is_lattice = problem.options.planner == PlannerKind::kLattice;
@@ -60,7 +62,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double z
   if (problem.options.improvement_extensions == 0) lattice.weights.resize(1);
   if (request.tolerance.isMet(request.map_T_goal, request.object.map_T_object)) {
     made.end = PlanSearch::End::kFound;
-    made.plan = makePlan(problem, cases, {}, zeta);
+    made.plan = makePlan(problem, cases, {}, safety);
     made.nodes = 1;
     return made;
   }
@@ -80,7 +82,10 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double z
                              request.map_T_robot,
                              problem.object.gyration_radius_m,
                              problem.options.max_nodes,
-                             request.seed};
+                             request.seed,
+                             problem.options.time.handling_s,
+                             safety.max_collision_probability ? &risk : nullptr,
+                             safety.max_collision_probability.value_or(1.0)};
     const auto is_banned = [&banned](const Pose2& pose, int previous, int push) {
       return std::find(banned.begin(), banned.end(), Ban{pose, previous, push}) != banned.end();
     };
@@ -107,7 +112,8 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double z
     }
     if (!reachable) continue;
     made.end = PlanSearch::End::kFound;
-    made.plan = makePlan(problem, cases, result.pushes, zeta);
+    made.plan = makePlan(problem, cases, result.pushes, safety);
+    if (safety.max_collision_probability) assessPlan(risk, result.pushes, &made.plan);
     made.expected_s = result.cost_s;
     made.bound = result.bound;
     return made;

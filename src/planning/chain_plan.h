@@ -16,7 +16,7 @@ struct ChainPlan {
 };
 
 /// Searches with the lattice or an OMPL planner until the robot can get to every push of a chain.
-ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, double zeta,
+ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
                     const SearchClock& clock);
 
 }  // namespace casepush

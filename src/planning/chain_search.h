@@ -7,6 +7,7 @@
 #include "casepush/planning/planner_kind.h"
 #include "casepush/planning/push_checker.h"
 #include "casepush/planning/push_time.h"
+#include "push_risk.h"
 
 namespace casepush {
 
@@ -24,6 +25,9 @@ struct ChainProblem {
   double gyration_radius_m;
   int max_nodes;
   std::uint64_t seed;
+  double handling_s;                       ///< No push takes less than this and its duration.
+  const PushRisk* risk = nullptr;          ///< For chance constraints.
+  double max_collision_probability = 1.0;  ///< Of the chain, if there is `risk`.
 };
 
 struct ChainResult {
@@ -42,12 +46,17 @@ ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
 
 struct LatticeOptions {
   double cell_m = 0.1;  ///< Of the position; the yaw's is cell_m / gyration radius.
-  std::vector<double> weights = {5.0, 2.5, 1.5, 1.0};  ///< Of the heuristic, one search each.
+  std::vector<double> weights = {5.0, 2.5, 1.5, 1.0};  ///< Of the heuristic, falling.
 };
 
-/// A* over cells of SE(2), of which each keeps the cheapest pose that reached it; edges are checked
-/// for collisions when their end is expanded. Repeated with smaller weights while `stop` says false
-/// and nodes are left; each result is within its weight of the best chain through the cells' poses.
+/// ARA* (Likhachev et al. 2003) over cells of SE(2), of which each keeps the cheapest pose that
+/// reached it; edges are checked for collisions and risks when their turn comes (Cohen et al.
+/// 2014).
+///
+/// The search with one weight goes on where the one before it ended, until `stop` says true or
+/// `max_nodes` are reached; the best chain so far is returned with the bound that was proven for
+/// it, over the graph of the cells' poses. The cost is time, and with `risk` the expected time of
+/// recoveries; nothing is random.
 /// @param map  Of the goal.
 /// @param is_banned  Edges (pose, previous case or -1, case) that must not be used.
 ChainResult searchLattice(const ChainProblem& problem, const LatticeOptions& options,

@@ -39,6 +39,14 @@ const ClearanceField& PushChecker::clearance() {
   return *clearance_;
 }
 
+bool PushChecker::isObjectFarFromAll(const Eigen::Vector2d& position_m, double deviation_m) {
+  return clearance().at(position_m) >= object_.radius_m + deviation_m;
+}
+
+bool PushChecker::isRobotFarFromAll(const Eigen::Vector2d& position_m, double deviation_m) {
+  return clearance().at(position_m) >= robot_.radius_m + deviation_m;
+}
+
 void PushChecker::tolerateStart(const Pose2& map_T_start) {
   tolerated_start_ = map_T_start;
   tolerated_depth_m_ = 0.0;

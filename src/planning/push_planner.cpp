@@ -21,14 +21,6 @@ namespace {
 constexpr double kSweepReach_m = 4.0;      // Longer pushes are tested pose by pose.
 constexpr std::size_t kShownEdges = 4000;  // More than can be told apart on a screen.
 
-std::vector<double> zetaLevels(double zeta) {
-  std::vector<double> levels = {zeta};
-  for (double level = std::ceil(zeta) - 1.0; level >= 0.0; level -= 1.0) {
-    levels.push_back(level);
-  }
-  return levels;
-}
-
 std::string rounded(double value, int digits) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.*f", digits, value);
@@ -47,12 +39,17 @@ void addTree(const ExpRrt& rrt, PlanResult* result) {
   }
 }
 
-std::string solvedText(double expected_s, const PushPlan& plan, double wanted_zeta) {
+std::string solvedText(double expected_s, const PushPlan& plan, const PushPlannerOptions& options) {
   std::string text = std::to_string(plan.pushes.size()) + " pushes over " +
                      rounded(plan.lengthM(), 1) + " m, about " + rounded(expected_s, 0) + " s";
-  if (plan.zeta < wanted_zeta) {
+  if (plan.max_collision_probability) {
+    text += ", collision probability " + rounded(plan.collision_probability, 3);
+    if (*plan.max_collision_probability > options.risk.max_collision_probability) {
+      text += "; no plan keeps " + rounded(options.risk.max_collision_probability, 3);
+    }
+  } else if (plan.zeta < options.zeta) {
     text +=
-        "; safe only for zeta " + rounded(plan.zeta, 1) + " instead of " + rounded(wanted_zeta, 1);
+        "; safe only for zeta " + rounded(plan.zeta, 1) + " instead of " + rounded(options.zeta, 1);
   }
   return text;
 }
@@ -87,16 +84,17 @@ std::string unreachableText(const Outcome& outcome, int max_nodes) {
   return text;
 }
 
-Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, double zeta,
+Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
                    const SearchClock& clock, PlanResult* result) {
   Outcome outcome;
   if (problem.options.planner == PlannerKind::kLattice || isOmpl(problem.options.planner)) {
-    ChainPlan made = planChain(problem, checker, zeta, clock);
+    ChainPlan made = planChain(problem, checker, safety, clock);
     result->nodes += made.nodes;
+    result->bound = made.bound;
     return {made.end, std::move(made.plan), made.expected_s, made.nodes,
             std::move(made.approach_problem)};
   }
-  PlanSearch search(problem, checker, zeta);
+  PlanSearch search(problem, checker, safety.zeta);
   outcome.end = search.run(clock);
   addTree(search.rrt(), result);
   outcome.nodes = search.rrt().tree().size();
@@ -176,11 +174,18 @@ void PushPlannerOptions::validate() const {
   violations.require("solutions", solutions, 1, kInfinity);
   violations.require("improvement_extensions", improvement_extensions, 0, kInfinity);
   violations.requirePositive("spacing_m", spacing_m, 1.0);
+  violations.requirePositive("risk.max_collision_probability", risk.max_collision_probability, 1.0);
+  violations.require("risk.horizon", risk.horizon, 1, 1000);
+  violations.require("risk.recovery_s", risk.recovery_s, 0.0, 3600.0);
   violations.requirePositive("time.drive_speed_mps", time.drive_speed_mps, kInfinity);
   violations.requirePositive("time.turn_rate_rps", time.turn_rate_rps, kInfinity);
   violations.require("time.clearance_m", time.clearance_m, 0.0, kInfinity);
   violations.require("time.handling_s", time.handling_s, 0.0, kInfinity);
   violations.throwIfAny("push planner options");
+  if (risk.model == RiskModel::kChance && planner != PlannerKind::kLattice) {
+    throw InputError("risk", std::string("planner ") + toString(planner) +
+                                 " knows no chance constraints; use lattice");
+  }
 }
 
 PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
@@ -274,15 +279,16 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
                               },
                               approaches.get()};
   PlanResult result;
-  for (const double zeta : zetaLevels(options.zeta)) {
-    const Outcome outcome = searchOnce(problem, &push_checker, zeta, clock, &result);
+  for (const SafetyLevel& safety : safetyLevels(options.risk, options.zeta)) {
+    const Outcome outcome = searchOnce(problem, &push_checker, safety, clock, &result);
     result.collision_checks = push_checker.checkCount();
     clock.addNodes(outcome.nodes);
     if (outcome.end == PlanSearch::End::kFound) {
       result.status = PlanStatus::kSolved;
       result.plan = outcome.plan;
       compoundPushes(&result.plan);
-      result.explanation = solvedText(outcome.expected_s, result.plan, options.zeta);
+      result.explanation = solvedText(outcome.expected_s, result.plan, options);
+      result.expected_s = outcome.expected_s;
       return result;
     }
     if (outcome.end == PlanSearch::End::kStopped) {
@@ -331,6 +337,10 @@ std::string PushPlanner::Data::chain(PushPlan* plan, const std::vector<Case>& ca
   if (!plan->tolerance.isMet(plan->map_T_goal, pose)) {
     return "the rest of the plan now ends at " + describe(pose) + ", " +
            rounded(distance(pose, plan->map_T_goal), 2) + " m from the goal";
+  }
+  if (plan->max_collision_probability) {
+    assessPlan(cases, {step_m, object_radius_m, robot.radius_m}, options.risk, push_checker, plan);
+    return riskExplanation(*plan);
   }
   return {};
 }

@@ -12,7 +12,7 @@ namespace {
 struct PlanArguments {
   TaskArguments task;
   double deadline_s = 10.0;
-  std::string planner = "exp_rrt";
+  PlannerArguments planner;
   bool paper = false;
   bool verify = false;
 };
@@ -31,14 +31,30 @@ bool isBadRequest(PlanStatus status) {
   }
 }
 
-PlanVerification verify(const Task& task, const PlanRequest& request, const PushPlan& plan) {
+/// Sets `valid`.
+nlohmann::ordered_json verify(const PlanArguments& arguments, const Task& task,
+                              const PlanRequest& request, const PushPlan& plan, bool* valid) {
   std::vector<PlacedSolid> obstacles;
   const std::map<std::string, ObjectModel> models = task.catalog.objectsIn(task.problem.world);
   for (const PlacedObject& obstacle : request.obstacles) {
     obstacles.push_back({models.at(obstacle.model).solid, obstacle.map_T_object, obstacle.id});
   }
-  return verifyPlan(*task.map, obstacles, models.at(request.object.model),
-                    task.catalog.robot(task.problem.world.robot), plan, task.cases);
+  const ObjectModel& object = models.at(request.object.model);
+  const RobotModel robot = task.catalog.robot(task.problem.world.robot);
+  const PlanVerification verified =
+      verifyPlan(*task.map, obstacles, object, robot, plan, task.cases);
+  constexpr int kDraws = 1000;
+  const RiskVerification risk =
+      verifyRisk(*task.map, obstacles, object, robot, plan, task.cases,
+                 arguments.planner.risk_options.horizon, kDraws, arguments.task.common.seed);
+  *valid = verified.valid && risk.valid;
+  return {{"valid", *valid},
+          {"poses", verified.poses},
+          {"explanation", verified.explanation},
+          {"draws", risk.draws},
+          {"collision_probability", risk.collision_probability},
+          {"collision_probability_ci95", {risk.low, risk.high}},
+          {"goal_probability", risk.goal_probability}};
 }
 
 /// Standard deviations along and across the object's heading and of the heading.
@@ -47,11 +63,18 @@ nlohmann::ordered_json sigmaJson(const Eigen::Matrix3d& covariance) {
   return {{"x_m", sigma.x()}, {"y_m", sigma.y()}, {"yaw_deg", sigma.z() * 180.0 / M_PI}};
 }
 
+/// Only chance constraints estimate it.
+nlohmann::ordered_json collisionJson(const PushPlan& plan) {
+  return plan.max_collision_probability ? nlohmann::ordered_json(plan.collision_probability)
+                                        : nlohmann::ordered_json(nullptr);
+}
+
 int plan(const PlanArguments& arguments) {
   const Stopwatch watch;
   const Task task = prepareTask(arguments.task);
-  const PlannerKind kind = plannerKind(arguments.paper ? "exp_rrt_paper" : arguments.planner);
-  const PushPlannerOptions options = PushPlannerOptions::forPlanner(kind);
+  PlannerArguments chosen = arguments.planner;
+  if (arguments.paper) chosen.planner = toString(PlannerKind::kExpRrtPaper);
+  const PushPlannerOptions options = plannerOptions(chosen);
   const PushPlanner planner(task.map, task.catalog.robot(task.problem.world.robot),
                             task.catalog.objectsIn(task.problem.world), options);
   const PlanRequest request =
@@ -71,18 +94,18 @@ int plan(const PlanArguments& arguments) {
   nlohmann::ordered_json verification;
   bool valid = true;
   if (solved && arguments.verify) {
-    const PlanVerification verified = verify(task, request, result.plan);
-    valid = verified.valid;
-    verification = {{"valid", verified.valid},
-                    {"poses", verified.poses},
-                    {"explanation", verified.explanation}};
+    verification = verify(arguments, task, request, result.plan, &valid);
   }
   printResult({{"success", solved && valid},
                {"status", toString(result.status)},
                {"explanation", result.explanation},
-               {"planner", toString(kind)},
+               {"planner", toString(options.planner)},
                {"pushes", result.plan.pushes.size()},
                {"plan_length_m", result.plan.lengthM()},
+               {"expected_s", result.expected_s},
+               {"bound", result.bound},
+               {"risk", toString(options.risk.model)},
+               {"collision_probability", collisionJson(result.plan)},
                {"goal_probability", result.plan.goal_probability},
                {"nodes", result.nodes},
                {"collision_checks", result.collision_checks},
@@ -105,13 +128,11 @@ void addPlanCommand(CLI::App& app, Run& run) {
   command->add_option("--deadline", arguments->deadline_s, "Wall seconds for planning")
       ->check(finiteIn(0.001, 3600.0))
       ->capture_default_str();
-  command
-      ->add_option("--planner", arguments->planner,
-                   "exp_rrt, exp_rrt_paper, lattice, or one of OMPL's over the same cases: "
-                   "ompl_rrt, ompl_sst, ompl_est, ompl_pdst, ompl_kpiece")
-      ->capture_default_str();
-  command->add_flag("--verify", arguments->verify,
-                    "Test the plan once more with FCL on the OctoMap, slowly and independently");
+  addPlannerOptions(*command, arguments->planner);
+  command->add_flag(
+      "--verify", arguments->verify,
+      "Test the plan once more with FCL on the OctoMap, slowly and independently, and "
+      "1000 random executions of it");
   command->add_flag("--paper", arguments->paper, "The same as --planner exp_rrt_paper");
   command->callback([arguments, &run] { run = [arguments] { return plan(*arguments); }; });
 }

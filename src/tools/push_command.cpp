@@ -17,6 +17,7 @@ constexpr double kPlanDeadlineS = 120.0;
 
 struct PushArguments {
   TaskArguments task;
+  PlannerArguments planner;
   bool no_adapt = false;
   CasterModel caster_model = CasterModel::kFeatherstone;
   std::optional<Load> load;
@@ -86,6 +87,7 @@ int push(const PushArguments& arguments) {
   if (arguments.load) {
     options.lab.simulator.loads[task.problem.object_id] = *arguments.load;
   }
+  options.planner = plannerOptions(arguments.planner);
   options.adapt = !arguments.no_adapt;
   options.time_limit_s = arguments.time_limit_s;
   options.task.plan_deadline_s = kPlanDeadlineS;
@@ -136,6 +138,7 @@ void addPushCommand(CLI::App& app, Run& run) {
   CLI::App* command =
       app.add_subcommand("push", "Push an object to a goal in the simulator, planning from cases");
   addTaskOptions(*command, arguments->task);
+  addPlannerOptions(*command, arguments->planner);
   command->add_flag("--no-adapt", arguments->no_adapt,
                     "Do not adapt the cases while pushing (the file is never changed)");
   command->add_option("--time-limit", arguments->time_limit_s, "Simulated seconds for the task")

@@ -49,6 +49,39 @@ void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
       ->expected(3);
 }
 
+void addPlannerOptions(CLI::App& command, PlannerArguments& arguments) {
+  command
+      .add_option("--planner", arguments.planner,
+                  "exp_rrt, exp_rrt_paper, lattice, or one of OMPL's over the same cases: "
+                  "ompl_rrt, ompl_sst, ompl_est, ompl_pdst, ompl_kpiece")
+      ->capture_default_str();
+  RiskOptions& options = arguments.risk_options;
+  command
+      .add_option("--risk", arguments.risk,
+                  "What plans are safe for: sigma_points (of each push for itself) or chance (a "
+                  "collision probability for the whole plan)")
+      ->check(CLI::IsMember({"sigma_points", "chance"}))
+      ->capture_default_str();
+  command
+      .add_option("--max-collision-probability", options.max_collision_probability,
+                  "With --risk chance: of a whole plan")
+      ->check(finiteIn(1e-6, 1.0))
+      ->capture_default_str();
+  command
+      .add_option("--risk-horizon", options.horizon,
+                  "With --risk chance: pushes whose scatter adds up before the plan is corrected")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+PushPlannerOptions plannerOptions(const PlannerArguments& arguments) {
+  PushPlannerOptions options = PushPlannerOptions::forPlanner(plannerKind(arguments.planner));
+  options.risk = arguments.risk_options;
+  options.risk.model = riskModel(arguments.risk);
+  options.validate();
+  return options;
+}
+
 Task prepareTask(const TaskArguments& arguments) {
   Task task{Catalog::standard(), {}, {}, nullptr};
   const std::string name = task.catalog.object(arguments.object).name;

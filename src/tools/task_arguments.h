@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "casepush/lab/push_run.h"
+#include "casepush/planning/risk_options.h"
 #include "command.h"
 
 namespace casepush {
@@ -22,6 +23,19 @@ struct TaskArguments {
 };
 
 void addTaskOptions(CLI::App& command, TaskArguments& arguments);
+
+/// How to plan.
+struct PlannerArguments {
+  std::string planner = "exp_rrt";
+  std::string risk = "sigma_points";
+  RiskOptions risk_options;
+};
+
+/// --planner, --risk, --max-collision-probability and --risk-horizon.
+void addPlannerOptions(CLI::App& command, PlannerArguments& arguments);
+
+/// @throws InputError if there is no such planner, or it knows no chance constraints.
+PushPlannerOptions plannerOptions(const PlannerArguments& arguments);
 
 /// Everything loaded and checked.
 struct Task {

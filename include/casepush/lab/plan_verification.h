@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,25 @@ struct PlanVerification {
 PlanVerification verifyPlan(const Map& map, const std::vector<PlacedSolid>& obstacles,
                             const ObjectModel& object, const RobotModel& robot,
                             const PushPlan& plan, const std::vector<Case>& cases);
+
+struct RiskVerification {
+  bool valid = true;  ///< What the plan claims is not refuted.
+  int draws = 0;
+  double collision_probability = 0.0;  ///< Share of the draws in which something collides.
+  double low = 0.0;                    ///< Its 95 % interval (Wilson's).
+  double high = 0.0;
+  double goal_probability = 0.0;  ///< Share of the draws that end in the goal region.
+};
+
+/// Draws executions of a plan and tests them with FCL: the outcome of every push is random, its
+/// start has the deviations of the `horizon` - 1 pushes before it, object and robot move as
+/// recorded from there (every 3 cm), the object with a deviation that grows to that of the outcome.
+/// The goal is judged with the deviations of all pushes, as PushPlan::goal_probability. Refuted is
+/// a plan whose allowed collision probability lies below the interval.
+/// @throws InputError as verifyPlan.
+RiskVerification verifyRisk(const Map& map, const std::vector<PlacedSolid>& obstacles,
+                            const ObjectModel& object, const RobotModel& robot,
+                            const PushPlan& plan, const std::vector<Case>& cases, int horizon,
+                            int draws, std::uint64_t seed);
 
 }  // namespace casepush

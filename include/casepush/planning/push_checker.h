@@ -50,6 +50,11 @@ class PushChecker {
   /// Does the object itself fit there? The tolerated start does.
   bool isFree(const Pose2& map_T_object);
 
+  /// Can nothing touch the object, or the robot, if its origin is within `deviation_m` of there?
+  /// Says no where it does not know.
+  bool isObjectFarFromAll(const Eigen::Vector2d& position_m, double deviation_m);
+  bool isRobotFarFromAll(const Eigen::Vector2d& position_m, double deviation_m);
+
   const CollisionChecker& collisions() const { return checker_; }
   int checkCount() const { return check_count_; }  ///< Poses and sweeps tested so far.
 

@@ -13,6 +13,7 @@
 #include "casepush/model/robot_model.h"
 #include "casepush/planning/planner_kind.h"
 #include "casepush/planning/push_time.h"
+#include "casepush/planning/risk_options.h"
 #include "casepush/planning/robot_path_planner.h"
 #include "casepush/planning/similarity.h"
 #include "casepush/world/map.h"
@@ -30,6 +31,7 @@ struct PushPlannerOptions {
   int solutions = 16;                  ///< Solutions to compare before the cheapest is returned.
   int improvement_extensions = 20000;  ///< Search for cheaper plans after the first one.
   double spacing_m = 0.1;  ///< Of tree nodes nearer than this only the cheaper one grows.
+  RiskOptions risk;        ///< Chance constraints in the place of sigma points.
   PushTimeOptions time;    ///< What the robot's way between pushes costs.
   RobotPathOptions robot_path;
 
@@ -53,9 +55,11 @@ struct PlanProgress {
 /// pose the robot cannot reach is not returned.
 /// Where no plan exists that is safe at the sigma points of `zeta`, e.g. because the object stands
 /// in a tight spot, smaller whole values down to 0 (the mean only) are tried one after the other;
-/// the plan holds the one it is safe for, and the explanation says so. Deterministic for a given
-/// request and seed unless the deadline cuts it off: all budgets count nodes and extensions. Thread
-/// safety: const methods are reentrant.
+/// the plan holds the one it is safe for, and the explanation says so. With chance constraints the
+/// mean motions must be safe and the whole plan must keep the collision probability; larger ones
+/// are tried where there is no such plan, and expected recoveries count as time. Deterministic for
+/// a given request and seed unless the deadline cuts it off: all budgets count nodes and
+/// extensions. Thread safety: const methods are reentrant.
 class PushPlanner {
  public:
   /// @throws InputError if the map is empty or an option is out of bounds.

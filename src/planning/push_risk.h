@@ -1,0 +1,122 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/model/push_plan.h"
+#include "casepush/planning/push_checker.h"
+#include "casepush/planning/risk_options.h"
+
+namespace casepush {
+
+/// Estimates how likely a push collides or misses the goal, if both where it starts and what it
+/// does scatter.
+///
+/// Directional simulation (Ditlevsen et al. 1990) over a fixed set of directions: along each, the
+/// smallest standardised radius at which something collides is bracketed, and the probability
+/// beyond it counted; whatever lies behind an obstacle counts as blocked. So a probability of a
+/// thousandth shows with few tests, and the same push always has the same risk.
+/// At each radius start and outcome deviate by that many standard deviations in the same direction.
+/// Thus start, way and outcome each have their own distribution exactly; how they go together is
+/// assumed. Not thread-safe: the checker is shared.
+class PushRisk {
+ public:
+  /// @param cases, prepared  The same cases; prepared for the mean alone (zeta 0). They and the
+  ///   checker must outlive this.
+  PushRisk(const std::vector<Case>& cases, const std::vector<PreparedCase>& prepared,
+           PushChecker* checker, const RiskOptions& options);
+
+  /// Where a push may start if the ones before it scattered: covariance in the frame of the mean.
+  /// @param pushes  Indices of the pushes so far, the last one first; those beyond the horizon do
+  ///   not count.
+  Eigen::Matrix3d startCovariance(const std::vector<int>& pushes) const;
+
+  /// Probability that object or robot collides; 1 if the mean motion does. Not followed up beyond
+  /// `limit`.
+  double collisionProbability(int push, const Pose2& map_T_start,
+                              const Eigen::Matrix3d& start_covariance, double limit = 1.0) const;
+
+  /// Probability that the push does not end in the goal region.
+  double missProbability(int push, const Pose2& map_T_start,
+                         const Eigen::Matrix3d& start_covariance, const Pose2& map_T_goal,
+                         const GoalTolerance& tolerance) const;
+
+  const RiskOptions& options() const { return options_; }
+
+  static constexpr int kDirections = 32;
+
+ private:
+  /// The object somewhere along a push, in the start frame.
+  struct Stop {
+    Pose2 start_T_object;
+    Eigen::Matrix3d carry;  ///< Takes a deviation of the start to one of the stop.
+    Eigen::Matrix3d covariance;
+  };
+  /// A point that others of a trajectory are near, in the start frame.
+  struct Guard {
+    Eigen::Vector2d start_point_m;
+    double range_m;
+  };
+  struct Guards {
+    std::vector<Guard> object;
+    std::vector<Guard> robot;
+  };
+  struct Deviations;
+
+  static std::vector<Stop> stopsOf(const Case& push_case);
+  static Guards guardsOf(const Case& push_case);
+  bool isMotionFarFromAll(int push, const Pose2& map_T_start,
+                          const Eigen::Matrix3d& start_covariance) const;
+  Deviations deviationsOf(int push, const Pose2& map_T_start,
+                          const Eigen::Matrix3d& start_covariance) const;
+  double blockedBeyond(int push, const Pose2& map_T_start, const Deviations& deviations,
+                       const Eigen::Vector3d& direction) const;
+  bool collidesAt(int push, const Pose2& map_T_start, const Deviations& deviations,
+                  const Eigen::Vector3d& offset) const;
+
+  const std::vector<PreparedCase>& prepared_;
+  PushChecker& checker_;
+  RiskOptions options_;
+  std::vector<std::vector<Stop>> stops_;     ///< Of each case, the outcome last.
+  std::vector<Guards> guards_;               ///< Of each case.
+  std::vector<Eigen::Vector3d> directions_;  ///< Unit vectors.
+};
+
+/// What a plan is made safe for: the sigma points of `zeta`, and with chance constraints a bound
+/// for the whole plan besides.
+struct SafetyLevel {
+  double zeta = 0.0;
+  std::optional<double> max_collision_probability;
+};
+
+/// Sets the collision probability of each push and of the plan.
+/// @param pushes  Indices of the plan's cases.
+void assessPlan(const PushRisk& risk, const std::vector<int>& pushes, PushPlan* plan);
+
+/// The wanted level first, then less and less.
+std::vector<SafetyLevel> safetyLevels(const RiskOptions& options, double zeta);
+
+/// What prepareCases needs besides cases.
+struct PreparationSizes {
+  double step_m;
+  double object_radius_m;
+  double robot_radius_m;
+};
+
+/// The same for a plan of which the cases' ids are known.
+/// @pre All cases of the plan are among `cases`.
+void assessPlan(const std::vector<Case>& cases, const PreparationSizes& sizes,
+                const RiskOptions& options, PushChecker* checker, PushPlan* plan);
+
+/// Why a plan that was begun should be given up for its risk, or nothing. It may be twice what a
+/// new plan may have: else every rest near the limit would be planned anew for the least deviation.
+std::string riskExplanation(const PushPlan& rest);
+
+/// -log(1 - p): adds up along a plan, where the probabilities do not.
+double riskOf(double probability);
+/// The other way round.
+double probabilityOf(double risk);
+
+}  // namespace casepush
