@@ -112,7 +112,7 @@ bool drawCollides(const PushPlan& plan, const std::vector<Case>& cases, std::siz
     *map_T_end = *map_T_end * moves.back();
     if (verifier->isHit()) continue;
     verifier->testObject(start * moves.back(), "outcome");
-    constexpr double kCoarse_m = 0.03;
+    constexpr double kCoarse_m = 0.04;
     if (!verifier->isHit()) testMotion(push_case, start, kCoarse_m, deviation, "", verifier);
   }
   return verifier->isHit();

@@ -15,6 +15,7 @@ struct PlanArguments {
   PlannerArguments planner;
   bool paper = false;
   bool verify = false;
+  int draws = 200;
 };
 
 /// Wrong from the start, in contrast to a search without success.
@@ -43,10 +44,9 @@ nlohmann::ordered_json verify(const PlanArguments& arguments, const Task& task,
   const RobotModel robot = task.catalog.robot(task.problem.world.robot);
   const PlanVerification verified =
       verifyPlan(*task.map, obstacles, object, robot, plan, task.cases);
-  constexpr int kDraws = 1000;
-  const RiskVerification risk =
-      verifyRisk(*task.map, obstacles, object, robot, plan, task.cases,
-                 arguments.planner.risk_options.horizon, kDraws, arguments.task.common.seed);
+  const RiskVerification risk = verifyRisk(*task.map, obstacles, object, robot, plan, task.cases,
+                                           arguments.planner.risk_options.horizon, arguments.draws,
+                                           arguments.task.common.seed);
   *valid = verified.valid && risk.valid;
   return {{"valid", *valid},
           {"poses", verified.poses},
@@ -132,7 +132,10 @@ void addPlanCommand(CLI::App& app, Run& run) {
   command->add_flag(
       "--verify", arguments->verify,
       "Test the plan once more with FCL on the OctoMap, slowly and independently, and "
-      "1000 random executions of it");
+      "random executions of it");
+  command->add_option("--draws", arguments->draws, "With --verify: random executions to test")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
   command->add_flag("--paper", arguments->paper, "The same as --planner exp_rrt_paper");
   command->callback([arguments, &run] { run = [arguments] { return plan(*arguments); }; });
 }

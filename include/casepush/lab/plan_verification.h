@@ -38,7 +38,7 @@ struct RiskVerification {
 
 /// Draws executions of a plan and tests them with FCL: the outcome of every push is random, its
 /// start has the deviations of the `horizon` - 1 pushes before it, object and robot move as
-/// recorded from there (every 3 cm), the object with a deviation that grows to that of the outcome.
+/// recorded from there (every 4 cm), the object with a deviation that grows to that of the outcome.
 /// The goal is judged with the deviations of all pushes, as PushPlan::goal_probability. Refuted is
 /// a plan whose allowed collision probability lies below the interval.
 /// @throws InputError as verifyPlan.
