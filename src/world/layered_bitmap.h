@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace casepush {
 /// Around the image lies a border whose cells are set.
 class LayeredBitmap {
  public:
-  static constexpr int kRowStep = 8;  ///< Masks' rows come in multiples of this.
+  static constexpr int kBits = 64;    ///< Cells of a word.
+  static constexpr int kRowStep = 8;  ///< Words are read in multiples of this along y.
 
   LayeredBitmap() = default;
   LayeredBitmap(int layers, int width, int height, int border);
@@ -21,21 +23,24 @@ class LayeredBitmap {
   void set(int layer, int x, int y, bool value = true);
   bool test(int layer, int x, int y) const;
 
-  /// A mask's words for one layer: strip after strip, `rows` words each.
-  struct Part {
-    std::int16_t first_row = 0;
-    std::int16_t rows = 0;    ///< A multiple of kRowStep; 0: empty.
-    std::int32_t offset = 0;  ///< Of the first word.
-  };
-
-  /// Is any cell set that a mask covers in its layer? Part i belongs to layer `first_layer` + i;
-  /// bit 0 of the first strip's row 0 lies at cell (x, y).
-  /// @pre the mask lies within the image and its border.
-  bool overlaps(int first_layer, const Part* parts, int count, const std::uint64_t* words,
-                int strips, int x, int y) const;
-
-  /// The 64 cells of row y from x on. @pre as for overlaps().
+  /// The 64 cells of row y from x on. @pre they lie within the image and its border.
   std::uint64_t word(int layer, int x, int y) const;
+
+  /// Where the cells around (x, y) lie in memory: those of row y + j begin in word j at bit
+  /// `shift`, and go on in the word `strip` farther on.
+  struct Window {
+    const std::uint64_t* words;  ///< Of layer 0.
+    std::ptrdiff_t strip;        ///< Words from one strip to the next.
+    std::ptrdiff_t layer;        ///< Words from one layer to the next.
+    unsigned shift;
+  };
+  Window window(int x, int y) const {
+    const int column = x + border_;
+    return {strip(0, column / kBits) + y + border_, rows_,
+            static_cast<std::ptrdiff_t>(strips_) * rows_, static_cast<unsigned>(column) % kBits};
+  }
+
+  std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
 
  private:
   const std::uint64_t* strip(int layer, int strip) const {

@@ -20,26 +20,23 @@ double depthInCells(const Shadow& square, const ConvexPart& part, double margin_
 
 }  // namespace
 
-bool reachesInto(const Footprint& footprint, const Shadow& square, const MapColumns& map,
-                 std::size_t column) {
+bool partReachesInto(const Footprint& footprint, std::size_t index, const Shadow& square,
+                     const MapColumns& map, std::size_t column) {
   const double resolution_m = map.columns.resolution_m;
-  const double half_diagonal_m = resolution_m * M_SQRT1_2;
   const Eigen::Vector2d centre = (square.points[0] + square.points[2]) / 2.0;
-  for (std::size_t i = 0; i < footprint.discs().size(); ++i) {
-    const BoundingDisc& disc = footprint.discs()[i];
-    const double discs_m = disc.radius_m + half_diagonal_m;
-    if ((disc.centre_m - centre).squaredNorm() > discs_m * discs_m) continue;
-    const ConvexPart& part = footprint.parts()[i];
-    for (std::uint32_t run = map.first_run[column]; run < map.first_run[column + 1]; ++run) {
-      const double low_m = map.runs[run].low * resolution_m;
-      const double high_m = map.runs[run].high * resolution_m;
-      if (!part.touches(low_m, high_m)) continue;
-      const double limit_m = footprint.margin() - kContactTolerance_m;
-      if (!closerThan(part.shadow(), square, limit_m)) continue;
-      if (part.isPrism()) return true;
-      const Shadow between = part.shadow(low_m, high_m);
-      if (!between.empty() && closerThan(between, square, limit_m)) return true;
-    }
+  const BoundingDisc& disc = footprint.discs()[index];
+  const double discs_m = disc.radius_m + resolution_m * M_SQRT1_2;
+  if ((disc.centre_m - centre).squaredNorm() > discs_m * discs_m) return false;
+  const ConvexPart& part = footprint.parts()[index];
+  const double limit_m = footprint.margin() - kContactTolerance_m;
+  for (std::uint32_t run = map.first_run[column]; run < map.first_run[column + 1]; ++run) {
+    const double low_m = map.runs[run].low * resolution_m;
+    const double high_m = map.runs[run].high * resolution_m;
+    if (!part.touches(low_m, high_m)) continue;
+    if (!closerThan(part.shadow(), square, limit_m)) return false;
+    if (part.isPrism()) return true;
+    const Shadow between = part.shadow(low_m, high_m);
+    if (!between.empty() && closerThan(between, square, limit_m)) return true;
   }
   return false;
 }

@@ -18,9 +18,9 @@ inline Eigen::Vector2d columnCorner(const CollisionChecker::Columns& columns, st
 double depthInColumn(const Footprint& footprint, const Shadow& square, const MapColumns& map,
                      std::size_t column);
 
-/// `depthInColumn(...) > 0.0`, faster.
-bool reachesInto(const Footprint& footprint, const Shadow& square, const MapColumns& map,
-                 std::size_t column);
+/// `depthInColumn(...) > 0.0` for one part of the footprint, faster.
+bool partReachesInto(const Footprint& footprint, std::size_t part, const Shadow& square,
+                     const MapColumns& map, std::size_t column);
 
 /// A footprint at a pose. Cells are compared in the solid's own frame, where its shadows are ready.
 class PlacedFootprint {

@@ -5,9 +5,11 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "casepush/common/check.h"
+#include "sweep_hulls.h"
 #include "sweep_mask.h"
 
 namespace casepush {
@@ -15,6 +17,7 @@ namespace {
 
 constexpr int kHeadings = Footprint::kHeadings;
 constexpr double kBin_rad = 2.0 * M_PI / kHeadings;
+constexpr int kMasks = kHeadings / 4;
 
 }  // namespace
 
@@ -27,8 +30,10 @@ struct Sweep::Data {
   double resolution_m = 0.0;
   double reach_m = 0.0;
   std::mutex mutex;
-  std::array<std::atomic<const SweepMask*>, kHeadings> ready{};
-  std::array<std::unique_ptr<const SweepMask>, kHeadings> masks;
+  std::array<std::atomic<const SweepMask*>, kMasks> ready{};
+  std::array<SweepMask::Pointer, kMasks> masks;
+  std::optional<SweepHulls> hulls;
+  std::atomic<std::size_t> bytes{0};
 
   const SweepMask& make(std::size_t bin) {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -36,10 +41,11 @@ struct Sweep::Data {
       if (covering.empty()) {
         covering = coveringShapes(tracks, *classes);
         covered = coveredShapes(tracks, *classes);
+        hulls.emplace(covering);
       }
-      masks[bin] = std::make_unique<const SweepMask>(
-          makeSweepMask(covering, covered, classes->count(), static_cast<double>(bin) * kBin_rad,
-                        kBin_rad / 2.0, resolution_m));
+      masks[bin] = makeSweepMask(covering, covered, classes->count(),
+                                 static_cast<double>(bin) * kBin_rad, kBin_rad / 2.0, resolution_m);
+      bytes += masks[bin]->bytes();
       ready[bin].store(masks[bin].get(), std::memory_order_release);
     }
     return *masks[bin];
@@ -71,14 +77,19 @@ const std::vector<Sweep::Stop>& Sweep::stops(std::size_t track) const {
   return data_->stops[track];
 }
 
+const SweepHulls& Sweep::hulls() const { return *data_->hulls; }
+
+std::size_t Sweep::bytes() const { return data_->bytes; }
+
 double Sweep::reach() const { return data_->reach_m; }
 
-const SweepMask& Sweep::mask(double yaw_rad) const {
+Sweep::Turned Sweep::mask(double yaw_rad) const {
   // Shifted by whole turns to where rounding towards zero rounds down.
   const int heading = static_cast<int>(yaw_rad * (1.0 / kBin_rad) + (0.5 + 4 * kHeadings));
-  const auto bin = static_cast<std::size_t>(heading) & (kHeadings - 1);
+  const auto bin = static_cast<unsigned>(heading) & (kMasks - 1);
   const SweepMask* ready = data_->ready[bin].load(std::memory_order_acquire);
-  return ready != nullptr ? *ready : data_->make(bin);
+  return {ready != nullptr ? ready : &data_->make(bin),
+          heading / kMasks % (kHeadings / kMasks)};
 }
 
 }  // namespace casepush

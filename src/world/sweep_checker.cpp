@@ -7,16 +7,17 @@
 #include "casepush/common/check.h"
 #include "checker_data.h"
 #include "height_classes.h"
-#include "layered_bitmap.h"
+#include "mask_test.h"
 #include "placed_footprint.h"
 #include "slab.h"
-#include "sweep_mask.h"
+#include "sweep_hulls.h"
+#include "turned_bitmaps.h"
 
 namespace casepush {
 namespace {
 
 constexpr int kMaxReachCells = 1024;
-constexpr int kBits = 64;
+constexpr int kBits = LayeredBitmap::kBits;
 
 /// Bits of the slices that are occupied through their whole height. The lowest and the highest one
 /// stand for all that lies beyond them and never count.
@@ -35,27 +36,34 @@ std::uint64_t filledSlices(const MapColumns& map, std::size_t column) {
   return bits;
 }
 
+CellIndex cellOf(const CollisionChecker::Columns& columns, std::size_t column) {
+  return {static_cast<int>(column % columns.width), static_cast<int>(column / columns.width)};
+}
+
 }  // namespace
 
 /// What is occupied in each class of heights; one more layer holds all of them.
 struct SweepChecker::Images {
-  LayeredBitmap occupied;
-  LayeredBitmap filled;  ///< Of the map alone: through the whole height of some slice.
+  TurnedBitmaps occupied;
+  TurnedBitmaps filled;  ///< Of the map alone: through the whole height of some slice.
+  Eigen::Vector2d origin_m{0.0, 0.0};
+  double cells_per_m = 0.0;
+  double reach_m = 0.0;  ///< Sweeps that reach farther might leave the border.
 
-  void add(const HeightClasses& classes, int x, int y, std::uint64_t slices) {
+  void add(const HeightClasses& classes, CellIndex cell, std::uint64_t slices) {
     for (int c = 0; c < classes.count(); ++c) {
       if ((slices & classes.slices(c)) == 0) continue;
-      occupied.set(c, x, y);
-      occupied.set(classes.count(), x, y);
+      occupied.set(c, cell);
+      occupied.set(classes.count(), cell);
     }
   }
 };
 
-/// A sweep's mask at the cell of its start.
+/// A sweep's mask at the cell of its start, in the image turned by some quarters.
 struct SweepChecker::Place {
   const SweepMask* mask = nullptr;
-  int x = 0;
-  int y = 0;
+  int quarter = 0;
+  CellIndex first;  ///< Of the mask.
 };
 
 std::shared_ptr<const HeightClasses> SweepChecker::heightClasses(const CollisionChecker& checker,
@@ -72,17 +80,20 @@ SweepChecker::SweepChecker(CollisionChecker checker, std::shared_ptr<const Heigh
   const double reach_cells = std::ceil(reach_m / map.columns.resolution_m) + 2.0;
   const int border = static_cast<int>(std::clamp(reach_cells, 0.0, 1.0 * kMaxReachCells)) + kBits;
   auto images = std::make_shared<Images>();
-  images->occupied = LayeredBitmap(classes_->count() + 1, width, height, border);
-  images->filled = LayeredBitmap(classes_->count(), width, height, border);
+  images->origin_m = map.columns.origin_m;
+  images->cells_per_m = 1.0 / map.columns.resolution_m;
+  images->reach_m = (border - kBits - 2.0) * map.columns.resolution_m;
+  images->occupied = TurnedBitmaps(classes_->count() + 1, width, height, border);
+  images->filled = TurnedBitmaps(classes_->count(), width, height, border);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t column = static_cast<std::size_t>(y) * width + x;
       const std::uint64_t slices = map.columns.bits[column];
       if (slices == 0) continue;
-      images->add(*classes_, x, y, slices);
+      images->add(*classes_, {x, y}, slices);
       const std::uint64_t filled = filledSlices(map, column);
       for (int c = 0; c < classes_->count(); ++c) {
-        if ((filled & classes_->slices(c)) != 0) images->filled.set(c, x, y);
+        if ((filled & classes_->slices(c)) != 0) images->filled.set(c, {x, y});
       }
     }
   }
@@ -100,8 +111,7 @@ SweepChecker SweepChecker::withObstaclesOf(CollisionChecker checker) const {
   const CollisionChecker::Columns& columns = checker_.data_->map->columns;
   for (const PlacedSolid& placed : result.checker_.obstacles()) {
     visitCells(placed, columns, [&](std::size_t column, std::uint64_t slices) {
-      images->add(*classes_, static_cast<int>(column % columns.width),
-                  static_cast<int>(column / columns.width), slices);
+      images->add(*classes_, cellOf(columns, column), slices);
     });
   }
   result.around_ = std::move(images);
@@ -110,60 +120,51 @@ SweepChecker SweepChecker::withObstaclesOf(CollisionChecker checker) const {
 
 // False if the mask might reach beyond the images.
 bool SweepChecker::place(const Sweep& sweep, const Pose2& map_T_start, Place* place) const {
-  const CollisionChecker::Columns& columns = checker_.data_->map->columns;
-  const Eigen::Vector2d at = (map_T_start.position() - columns.origin_m) / columns.resolution_m;
-  const bool inside =
-      at.x() >= 0.0 && at.y() >= 0.0 && at.x() < columns.width && at.y() < columns.height;
-  const int border = around_->occupied.border() - kBits;
-  if (!inside || sweep.reach() / columns.resolution_m + 2.0 > border) return false;
-  place->mask = &sweep.mask(map_T_start.yaw());
-  place->x = static_cast<int>(at.x()) + place->mask->first_column;
-  place->y = static_cast<int>(at.y());
+  const Images& images = *around_;
+  const double x = (map_T_start.x() - images.origin_m.x()) * images.cells_per_m;
+  const double y = (map_T_start.y() - images.origin_m.y()) * images.cells_per_m;
+  const CellIndex& size = images.occupied.size();
+  if (!(x >= 0.0 && y >= 0.0 && x < size.x && y < size.y)) return false;
+  if (sweep.reach() > images.reach_m || !std::isfinite(map_T_start.yaw())) return false;
+  const Sweep::Turned turned = sweep.mask(map_T_start.yaw());
+  place->mask = turned.mask;
+  place->quarter = turned.quarters;
+  place->first =
+      images.occupied.turn({static_cast<int>(x), static_cast<int>(y)}, turned.quarters);
+  place->first.x += place->mask->firstColumn();
+  place->first.y += place->mask->firstRow();
   return true;
-}
-
-bool SweepChecker::hitsOuter(const Place& place) const {
-  const SweepMask& mask = *place.mask;
-  const LayeredBitmap& occupied = around_->occupied;
-  const int classes = classes_->count();
-  return occupied.overlaps(classes, &mask.any, 1, mask.words.data(), mask.strips, place.x,
-                           place.y) &&
-         occupied.overlaps(0, mask.outer.data(), classes, mask.words.data(), mask.strips, place.x,
-                           place.y);
-}
-
-bool SweepChecker::hitsCertain(const Place& place) const {
-  const SweepMask& mask = *place.mask;
-  return map_->filled.overlaps(0, mask.certain.data(), classes_->count(), mask.words.data(),
-                               mask.strips, place.x, place.y);
 }
 
 bool SweepChecker::mayCollide(const Sweep& sweep, const Pose2& map_T_start) const {
   Place at;
-  if (!map_T_start.isFinite()) return true;
   if (!place(sweep, map_T_start, &at)) return collidesPoseByPose(sweep, map_T_start);
-  return hitsOuter(at);
+  return testMask(*at.mask, around_->occupied.image(at.quarter), nullptr, at.first.x,
+                  at.first.y) != MaskAnswer::kFree;
 }
 
 bool SweepChecker::collides(const Sweep& sweep, const Pose2& map_T_start) const {
   Place at;
-  if (!map_T_start.isFinite()) return true;
   if (!place(sweep, map_T_start, &at)) return collidesPoseByPose(sweep, map_T_start);
-  return hitsOuter(at) && (hitsCertain(at) || touchesHitCells(sweep, map_T_start, at));
+  const MaskAnswer answer =
+      testMask(*at.mask, around_->occupied.image(at.quarter), &map_->filled.image(at.quarter),
+               at.first.x, at.first.y);
+  return answer == MaskAnswer::kCertain ||
+         (answer == MaskAnswer::kMay && touchesHitCells(sweep, map_T_start, at));
 }
 
-// Cells of a row of the whole mask that are occupied in a class in which they may be covered.
-std::uint64_t SweepChecker::hitsOf(const Place& place, int row, int strip) const {
+// Cells of a tile's row that are occupied in a class in which they may be covered.
+std::uint64_t SweepChecker::hitsOf(const Place& place, int tile, int row) const {
   const SweepMask& mask = *place.mask;
-  const int mask_row = mask.any.first_row + row;
+  const int x = place.first.x + tile / mask.steps() * kBits;
+  const int y = place.first.y + tile % mask.steps() * SweepMask::kTileWords + row;
+  const LayeredBitmap& occupied = around_->occupied.image(place.quarter);
+  if ((mask.any(tile)[row] & occupied.word(occupied.layers() - 1, x, y)) == 0) return 0;
   std::uint64_t hits = 0;
-  for (int c = 0; c < classes_->count(); ++c) {
-    const SweepMask::Layer& layer = mask.outer[c];
-    const int own_row = mask_row - layer.first_row;
-    if (own_row < 0 || own_row >= layer.rows) continue;
-    const std::uint64_t covered = mask.words[layer.offset + strip * layer.rows + own_row];
-    if (covered == 0) continue;
-    hits |= covered & around_->occupied.word(c, place.x + strip * kBits, place.y + mask_row);
+  const std::uint64_t* line = mask.line(mask.tile(tile).line);
+  for (unsigned classes = mask.tile(tile).outer; classes != 0; classes &= classes - 1) {
+    hits |= line[row] & occupied.word(__builtin_ctz(classes), x, y);
+    line += SweepMask::kTileWords;
   }
   return hits;
 }
@@ -176,21 +177,19 @@ bool SweepChecker::touchesHitCells(const Sweep& sweep, const Pose2& map_T_start,
   const Pose2 start_T_map = map_T_start.inverse();
   bool outside = false;
   bool solids = false;
-  for (int row = 0; row < mask.any.rows; ++row) {
-    const int y = place.y + mask.any.first_row + row;
-    for (int strip = 0; strip < mask.strips; ++strip) {
-      const int x0 = place.x + strip * kBits;
-      for (std::uint64_t hits = hitsOf(place, row, strip); hits != 0; hits &= hits - 1) {
-        const int x = x0 + __builtin_ctzll(hits);
-        if (x < 0 || y < 0 || x >= map.width || y >= map.height) {
+  for (int tile = 0; tile < mask.strips() * mask.steps(); ++tile) {
+    const int x0 = place.first.x + tile / mask.steps() * kBits;
+    for (int row = 0; row < SweepMask::kTileWords; ++row) {
+      const int y = place.first.y + tile % mask.steps() * SweepMask::kTileWords + row;
+      for (std::uint64_t hits = hitsOf(place, tile, row); hits != 0; hits &= hits - 1) {
+        const CellIndex cell =
+            around_->occupied.turnBack({x0 + __builtin_ctzll(hits), y}, place.quarter);
+        if (cell.x < 0 || cell.y < 0 || cell.x >= map.width || cell.y >= map.height) {
           outside = true;
           continue;
         }
-        const std::size_t column = static_cast<std::size_t>(y) * map.width + x;
-        const Eigen::Vector2d corner = map.origin_m + map.resolution_m * Eigen::Vector2d(x, y);
-        const Shadow square =
-            transformed(start_T_map, rectangle(corner, corner.array() + map.resolution_m));
-        if (map.bits[column] != 0 && touchesCell(sweep, square, column)) return true;
+        const std::size_t column = static_cast<std::size_t>(cell.y) * map.width + cell.x;
+        if (map.bits[column] != 0 && touchesCell(sweep, start_T_map, column)) return true;
         solids = solids || around.bits[column] != map.bits[column];
       }
     }
@@ -198,23 +197,46 @@ bool SweepChecker::touchesHitCells(const Sweep& sweep, const Pose2& map_T_start,
   return (outside || solids) && touchesRest(sweep, map_T_start, outside, solids);
 }
 
-bool SweepChecker::touchesCell(const Sweep& sweep, const Shadow& start_square,
+bool SweepChecker::touchesCell(const Sweep& sweep, const Pose2& start_T_map,
                                std::size_t column) const {
   const MapColumns& map = *checker_.data_->map;
-  const Eigen::Vector2d centre = (start_square.points[0] + start_square.points[2]) / 2.0;
+  const double half_m = map.columns.resolution_m / 2.0;
+  const Eigen::Vector2d corner = columnCorner(map.columns, column);
+  const Shadow square =
+      transformed(start_T_map, rectangle(corner, corner.array() + 2.0 * half_m));
+  const Eigen::Vector2d centre = (square.points[0] + square.points[2]) / 2.0;
+  const Eigen::Vector2d u = (square.points[1] - square.points[0]) / 2.0;
+  const Eigen::Vector2d v(-u.y(), u.x());
+  std::uint32_t classes = 0;
+  for (int c = 0; c < classes_->count(); ++c) {
+    classes |= (map.columns.bits[column] & classes_->slices(c)) != 0 ? 1U << c : 0U;
+  }
+  for (const SweepHulls::Hull& hull : sweep.hulls().all()) {
+    if ((hull.classes & classes) == 0 || !sweep.hulls().mayTouch(hull, centre, u, v)) continue;
+    if (touchesCellWithin(sweep, hull.track, hull.first_pose, hull.last_pose, hull.parts, square,
+                          column)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SweepChecker::touchesCellWithin(const Sweep& sweep, int track, int first_pose, int last_pose,
+                                     const std::vector<int>& parts, const Shadow& start_square,
+                                     std::size_t column) const {
+  const Footprint& body = *sweep.tracks()[track].body;
+  const std::vector<Sweep::Stop>& stops = sweep.stops(track);
   Shadow square;
   square.count = start_square.count;
-  for (std::size_t t = 0; t < sweep.tracks().size(); ++t) {
-    const Footprint& body = *sweep.tracks()[t].body;
-    const double near_m = body.reach() + map.columns.resolution_m * M_SQRT1_2;
-    for (const Sweep::Stop& stop : sweep.stops(t)) {
-      if ((stop.position_m - centre).squaredNorm() > near_m * near_m) continue;
-      for (int i = 0; i < square.count; ++i) {
-        const Eigen::Vector2d offset = start_square.points[i] - stop.position_m;
-        square.points[i] = {stop.cosine * offset.x() + stop.sine * offset.y(),
-                            stop.cosine * offset.y() - stop.sine * offset.x()};
-      }
-      if (reachesInto(body, square, map, column)) return true;
+  for (int k = first_pose; k <= last_pose; ++k) {
+    const Sweep::Stop& stop = stops[k];
+    for (int i = 0; i < square.count; ++i) {
+      const Eigen::Vector2d offset = start_square.points[i] - stop.position_m;
+      square.points[i] = {stop.cosine * offset.x() + stop.sine * offset.y(),
+                          stop.cosine * offset.y() - stop.sine * offset.x()};
+    }
+    for (const int part : parts) {
+      if (partReachesInto(body, part, square, *checker_.data_->map, column)) return true;
     }
   }
   return false;

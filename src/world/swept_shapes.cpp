@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace casepush {
 namespace {
@@ -14,6 +15,7 @@ constexpr std::size_t kMaxChord = 16;   // Poses that one shape covers.
 struct Outline {
   Shadow shadow;
   std::uint32_t classes;
+  std::vector<int> parts;  // It and those that lie within it.
 };
 
 Shadow simplified(const Shadow& shadow) {
@@ -37,22 +39,29 @@ bool isWithin(const Outline& inner, const Outline& outer) {
   return true;
 }
 
-/// Without those that lie within another one.
+/// Those that lie within another one are joined with it.
 std::vector<Outline> outlines(const Footprint& body, const HeightClasses& classes) {
-  std::vector<Outline> all;
-  for (const ConvexPart& part : body.parts()) {
-    Outline outline{simplified(part.shadow()), classes.touchedBy(part)};
-    outline.shadow.radius_m += body.margin();
-    all.push_back(outline);
-  }
   std::vector<Outline> kept;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    bool needed = true;
-    for (std::size_t j = 0; j < all.size() && needed; ++j) {
-      const bool covered = i != j && isWithin(all[i], all[j]);
-      needed = !covered || (j > i && isWithin(all[j], all[i]));  // Of equal ones the first stays.
+  for (std::size_t i = 0; i < body.parts().size(); ++i) {
+    const ConvexPart& part = body.parts()[i];
+    Outline outline{simplified(part.shadow()), classes.touchedBy(part), {static_cast<int>(i)}};
+    outline.shadow.radius_m += body.margin();
+    const auto around = std::find_if(kept.begin(), kept.end(), [&](const Outline& other) {
+      return isWithin(outline, other);
+    });
+    if (around != kept.end()) {
+      around->parts.push_back(static_cast<int>(i));
+      continue;
     }
-    if (needed) kept.push_back(all[i]);
+    for (auto other = kept.begin(); other != kept.end();) {
+      if (!isWithin(*other, outline)) {
+        ++other;
+        continue;
+      }
+      outline.parts.insert(outline.parts.end(), other->parts.begin(), other->parts.end());
+      other = kept.erase(other);
+    }
+    kept.push_back(std::move(outline));
   }
   return kept;
 }
@@ -79,7 +88,9 @@ bool isChord(const std::vector<Shadow>& shadows, std::size_t from, std::size_t t
 }
 
 SweptShape shape(const Shadow& shadow, std::uint32_t classes) {
-  SweptShape result{shadow, classes, 0.0};
+  SweptShape result;
+  result.shadow = shadow;
+  result.classes = classes;
   for (int i = 0; i < shadow.count; ++i) {
     result.reach_m = std::max(result.reach_m, shadow.points[i].norm() + shadow.radius_m);
   }
@@ -94,14 +105,25 @@ Shadow hullOf(const Shadow& a, const Shadow& b) {
   return result;
 }
 
-void addPath(const std::vector<Shadow>& shadows, std::uint32_t classes,
+/// Adds what covers an outline at the poses from, ..., to.
+void addShape(const Shadow& shadow, const Outline& outline, int track, std::size_t from,
+              std::size_t to, std::vector<SweptShape>* shapes) {
+  shapes->push_back(shape(shadow, outline.classes));
+  SweptShape& added = shapes->back();
+  added.track = track;
+  added.first_pose = static_cast<int>(from);
+  added.last_pose = static_cast<int>(to);
+  added.parts = outline.parts;
+}
+
+void addPath(const std::vector<Shadow>& shadows, const Outline& outline, int track,
              std::vector<SweptShape>* shapes) {
   std::size_t from = 0;
-  if (shadows.size() == 1) shapes->push_back(shape(shadows[0], classes));
+  if (shadows.size() == 1) addShape(shadows[0], outline, track, 0, 0, shapes);
   while (from + 1 < shadows.size()) {
     std::size_t to = from + 1;
     while (to + 1 < shadows.size() && to - from < kMaxChord && isChord(shadows, from, to + 1)) ++to;
-    shapes->push_back(shape(hullOf(shadows[from], shadows[to]), classes));
+    addShape(hullOf(shadows[from], shadows[to]), outline, track, from, to, shapes);
     from = to;
   }
 }
@@ -111,7 +133,9 @@ void addPath(const std::vector<Shadow>& shadows, std::uint32_t classes,
 std::vector<SweptShape> coveringShapes(const std::vector<Track>& tracks,
                                        const HeightClasses& classes) {
   std::vector<SweptShape> shapes;
-  for (const Track& track : tracks) {
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    const Track& track = tracks[t];
+    const int index = static_cast<int>(t);
     for (const Outline& outline : outlines(*track.body, classes)) {
       std::vector<Shadow> shadows;
       shadows.reserve(track.start_T_body.size());
@@ -119,9 +143,11 @@ std::vector<SweptShape> coveringShapes(const std::vector<Track>& tracks,
         shadows.push_back(transformed(pose, outline.shadow));
       }
       if (track.kind == Track::Kind::kPath) {
-        addPath(shadows, outline.classes, &shapes);
-      } else {
-        for (const Shadow& shadow : shadows) shapes.push_back(shape(shadow, outline.classes));
+        addPath(shadows, outline, index, &shapes);
+        continue;
+      }
+      for (std::size_t i = 0; i < shadows.size(); ++i) {
+        addShape(shadows[i], outline, index, i, i, &shapes);
       }
     }
   }

@@ -13,6 +13,11 @@ struct SweptShape {
   Shadow shadow;
   std::uint32_t classes = 0;  ///< Bits of the height classes that it counts in.
   double reach_m = 0.0;       ///< Largest distance of a point of it from the frame's origin.
+  // What it stands for.
+  int track = 0;
+  int first_pose = 0;
+  int last_pose = 0;
+  std::vector<int> parts;  ///< Of the track's body.
 };
 
 /// Shapes that cover all parts at all poses of the tracks. Along a path each of them covers a part

@@ -51,11 +51,12 @@ class SweepChecker {
   struct Place;
 
   bool place(const Sweep& sweep, const Pose2& map_T_start, Place* place) const;
-  bool hitsOuter(const Place& place) const;
-  bool hitsCertain(const Place& place) const;
-  std::uint64_t hitsOf(const Place& place, int row, int strip) const;
+  std::uint64_t hitsOf(const Place& place, int tile, int row) const;
   bool touchesHitCells(const Sweep& sweep, const Pose2& map_T_start, const Place& place) const;
-  bool touchesCell(const Sweep& sweep, const Shadow& start_square, std::size_t column) const;
+  bool touchesCell(const Sweep& sweep, const Pose2& start_T_map, std::size_t column) const;
+  bool touchesCellWithin(const Sweep& sweep, int track, int first_pose, int last_pose,
+                         const std::vector<int>& parts, const Shadow& start_square,
+                         std::size_t column) const;
   bool touchesRest(const Sweep& sweep, const Pose2& map_T_start, bool outside, bool solids) const;
 
   CollisionChecker checker_;

@@ -1,0 +1,84 @@
+#include "mask_test.h"
+
+#include <cstring>
+
+namespace casepush {
+namespace {
+
+constexpr unsigned kBits = LayeredBitmap::kBits;
+constexpr int kStep = LayeredBitmap::kRowStep;
+using Words = std::uint64_t __attribute__((vector_size(64)));
+static_assert(sizeof(Words) == kStep * sizeof(std::uint64_t), "a tile is one vector");
+
+// One function, compiled for vectors of several lengths; the processor's is chosen at start-up.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define CASEPUSH_VECTORISED __attribute__((target_clones("avx512f", "avx2", "default")))
+#define CASEPUSH_INLINE inline __attribute__((always_inline))
+#else
+#define CASEPUSH_VECTORISED
+#define CASEPUSH_INLINE inline
+#endif
+
+/// Does a tile's mask meet the image there?
+CASEPUSH_INLINE bool meets(const std::uint64_t* mask, const std::uint64_t* image,
+                           std::ptrdiff_t strip, unsigned shift) {
+  Words m;
+  Words low;
+  Words high;
+  std::memcpy(&m, mask, sizeof(m));
+  std::memcpy(&low, image, sizeof(low));
+  std::memcpy(&high, image + strip, sizeof(high));
+  // Shifted in two steps: a shift by all 64 bits is not defined.
+  const Words common = m & (low >> shift | (high << 1) << (kBits - 1 - shift));
+  std::uint64_t all = 0;
+  for (int k = 0; k < kStep; ++k) all |= common[k];
+  return all != 0;
+}
+
+/// Does any of the classes' masks, one line each, meet its layer?
+CASEPUSH_INLINE bool anyMeets(const std::uint64_t* lines, unsigned classes,
+                              const LayeredBitmap::Window& image, std::ptrdiff_t offset) {
+  for (; classes != 0; classes &= classes - 1, lines += kStep) {
+    const std::ptrdiff_t layer = __builtin_ctz(classes);
+    if (meets(lines, image.words + layer * image.layer + offset, image.strip, image.shift)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+CASEPUSH_VECTORISED
+MaskAnswer test(const SweepMask& mask, const LayeredBitmap::Window& occupied, int all_layer,
+                const LayeredBitmap::Window* filled) {
+  const std::uint64_t* all = occupied.words + all_layer * occupied.layer;
+  MaskAnswer answer = MaskAnswer::kFree;
+  int tile = 0;
+  for (int s = 0; s < mask.strips(); ++s) {
+    std::ptrdiff_t offset = s * occupied.strip;
+    for (int k = 0; k < mask.steps(); ++k, ++tile, offset += kStep) {
+      if (!meets(mask.any(tile), all + offset, occupied.strip, occupied.shift)) continue;
+      const SweepMask::Tile classes = mask.tile(tile);
+      const std::uint64_t* lines = mask.line(classes.line);
+      if (answer == MaskAnswer::kFree && !anyMeets(lines, classes.outer, occupied, offset)) {
+        continue;
+      }
+      answer = MaskAnswer::kMay;
+      if (filled == nullptr) return answer;
+      lines += __builtin_popcount(classes.outer) * kStep;
+      if (anyMeets(lines, classes.certain, *filled, offset)) return MaskAnswer::kCertain;
+    }
+  }
+  return answer;
+}
+
+}  // namespace
+
+MaskAnswer testMask(const SweepMask& mask, const LayeredBitmap& occupied,
+                    const LayeredBitmap* filled, int x, int y) {
+  const LayeredBitmap::Window image = occupied.window(x, y);
+  if (filled == nullptr) return test(mask, image, occupied.layers() - 1, nullptr);
+  const LayeredBitmap::Window certain = filled->window(x, y);
+  return test(mask, image, occupied.layers() - 1, &certain);
+}
+
+}  // namespace casepush

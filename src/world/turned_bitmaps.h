@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+
+#include "layered_bitmap.h"
+
+namespace casepush {
+
+/// A cell, or an image's size in cells.
+struct CellIndex {
+  int x = 0;
+  int y = 0;
+};
+
+/// An image, and the same turned clockwise by one, two and three quarters: a mask for a heading
+/// serves the headings a quarter turn apart as well, on another image.
+class TurnedBitmaps {
+ public:
+  static constexpr int kQuarters = 4;
+
+  TurnedBitmaps() = default;
+  TurnedBitmaps(int layers, int width, int height, int border)
+      : size_{width, height} {
+    for (int q = 0; q < kQuarters; ++q) {
+      const bool upright = q % 2 == 0;
+      images_[q] =
+          LayeredBitmap(layers, upright ? width : height, upright ? height : width, border);
+    }
+  }
+
+  const CellIndex& size() const { return size_; }
+  const LayeredBitmap& image(int quarter) const { return images_[quarter]; }
+
+  void set(int layer, CellIndex cell, bool value = true) {
+    for (int q = 0; q < kQuarters; ++q) {
+      const CellIndex turned = turn(cell, q);
+      images_[q].set(layer, turned.x, turned.y, value);
+    }
+  }
+
+  /// Where a cell lies in an image.
+  CellIndex turn(CellIndex cell, int quarter) const {
+    switch (quarter) {
+      case 1:
+        return {cell.y, size_.x - 1 - cell.x};
+      case 2:
+        return {size_.x - 1 - cell.x, size_.y - 1 - cell.y};
+      case 3:
+        return {size_.y - 1 - cell.y, cell.x};
+      default:
+        return cell;
+    }
+  }
+  /// Which cell lies there.
+  CellIndex turnBack(CellIndex cell, int quarter) const {
+    switch (quarter) {
+      case 1:
+        return {size_.x - 1 - cell.y, cell.x};
+      case 2:
+        return {size_.x - 1 - cell.x, size_.y - 1 - cell.y};
+      case 3:
+        return {cell.y, size_.y - 1 - cell.x};
+      default:
+        return cell;
+    }
+  }
+
+ private:
+  CellIndex size_;
+  std::array<LayeredBitmap, kQuarters> images_;
+};
+
+}  // namespace casepush
