@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "slab.h"
 
@@ -26,7 +27,8 @@ int area(const Bodies& bodies, std::uint64_t slices) {
 
 }  // namespace
 
-HeightClasses::HeightClasses(const Bodies& bodies, double slice_m) : slice_m_(slice_m) {
+HeightClasses::HeightClasses(const Bodies& bodies, const CollisionChecker::Columns& columns)
+    : slice_m_(columns.slice_m) {
   std::map<std::vector<bool>, std::uint64_t> by_parts;
   for (int slice = 0; slice < kSlices; ++slice) {
     const std::uint64_t bit = std::uint64_t{1} << slice;
@@ -34,7 +36,7 @@ HeightClasses::HeightClasses(const Bodies& bodies, double slice_m) : slice_m_(sl
     bool any = false;
     for (const auto& body : bodies) {
       for (const ConvexPart& part : body->parts()) {
-        present.push_back((slicesOf(part, slice_m) & bit) != 0);
+        present.push_back((slicesOf(part, slice_m_) & bit) != 0);
         any = any || present.back();
       }
     }
@@ -42,10 +44,21 @@ HeightClasses::HeightClasses(const Bodies& bodies, double slice_m) : slice_m_(sl
   }
   for (const auto& [present, slices] : by_parts) slices_.push_back(slices);
   while (count() > kMost) mergeMostSimilar(bodies);
-  // What covers most collides most often.
-  std::stable_sort(slices_.begin(), slices_.end(), [&](std::uint64_t a, std::uint64_t b) {
-    return area(bodies, a) > area(bodies, b);
-  });
+  sortByHits(bodies, columns);
+}
+
+// What covers most where most is occupied collides most often.
+void HeightClasses::sortByHits(const Bodies& bodies, const CollisionChecker::Columns& columns) {
+  std::vector<std::pair<double, std::uint64_t>> ranked;
+  for (const std::uint64_t slices : slices_) {
+    const auto occupied = std::count_if(columns.bits.begin(), columns.bits.end(),
+                                        [slices](std::uint64_t bits) { return bits & slices; });
+    ranked.emplace_back((1.0 + static_cast<double>(occupied)) * area(bodies, slices), slices);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::transform(ranked.begin(), ranked.end(), slices_.begin(),
+                 [](const auto& entry) { return entry.second; });
 }
 
 void HeightClasses::mergeMostSimilar(const Bodies& bodies) {

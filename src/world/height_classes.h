@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "casepush/world/collision_checker.h"
 #include "footprint.h"
 
 namespace casepush {
@@ -16,8 +17,9 @@ class HeightClasses {
  public:
   static constexpr int kMost = 6;
 
-  /// @param slice_m  Height of a slice of the map's columns.
-  HeightClasses(const std::vector<std::shared_ptr<const Footprint>>& bodies, double slice_m);
+  /// @param columns  Of the map: the class that is most likely to hit something there is the first.
+  HeightClasses(const std::vector<std::shared_ptr<const Footprint>>& bodies,
+                const CollisionChecker::Columns& columns);
 
   int count() const { return static_cast<int>(slices_.size()); }
   std::uint64_t slices(int index) const { return slices_[index]; }
@@ -30,6 +32,8 @@ class HeightClasses {
 
  private:
   void mergeMostSimilar(const std::vector<std::shared_ptr<const Footprint>>& bodies);
+  void sortByHits(const std::vector<std::shared_ptr<const Footprint>>& bodies,
+                  const CollisionChecker::Columns& columns);
 
   double slice_m_;
   std::vector<std::uint64_t> slices_;

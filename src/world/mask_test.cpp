@@ -52,10 +52,13 @@ MaskAnswer test(const SweepMask& mask, const LayeredBitmap::Window& occupied, in
                 const LayeredBitmap::Window* filled) {
   const std::uint64_t* all = occupied.words + all_layer * occupied.layer;
   MaskAnswer answer = MaskAnswer::kFree;
-  int tile = 0;
+  const int steps = mask.steps();
   for (int s = 0; s < mask.strips(); ++s) {
-    std::ptrdiff_t offset = s * occupied.strip;
-    for (int k = 0; k < mask.steps(); ++k, ++tile, offset += kStep) {
+    // From the middle on, where most is covered.
+    int k = steps / 2;
+    for (int i = 1; i <= steps; k += i % 2 == 0 ? i : -i, ++i) {
+      const int tile = s * steps + k;
+      const std::ptrdiff_t offset = s * occupied.strip + std::ptrdiff_t{k} * kStep;
       if (!meets(mask.any(tile), all + offset, occupied.strip, occupied.shift)) continue;
       const SweepMask::Tile classes = mask.tile(tile);
       const std::uint64_t* lines = mask.line(classes.line);

@@ -41,7 +41,7 @@ struct Sweep::Data {
       if (covering.empty()) {
         covering = coveringShapes(tracks, *classes);
         covered = coveredShapes(tracks, *classes);
-        hulls.emplace(covering);
+        hulls.emplace(covering, resolution_m);
       }
       masks[bin] = makeSweepMask(covering, covered, classes->count(),
                                  static_cast<double>(bin) * kBin_rad, kBin_rad / 2.0, resolution_m);
@@ -88,8 +88,7 @@ Sweep::Turned Sweep::mask(double yaw_rad) const {
   const int heading = static_cast<int>(yaw_rad * (1.0 / kBin_rad) + (0.5 + 4 * kHeadings));
   const auto bin = static_cast<unsigned>(heading) & (kMasks - 1);
   const SweepMask* ready = data_->ready[bin].load(std::memory_order_acquire);
-  return {ready != nullptr ? ready : &data_->make(bin),
-          heading / kMasks % (kHeadings / kMasks)};
+  return {ready != nullptr ? ready : &data_->make(bin), heading / kMasks % (kHeadings / kMasks)};
 }
 
 }  // namespace casepush

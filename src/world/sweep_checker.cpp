@@ -66,9 +66,26 @@ struct SweepChecker::Place {
   CellIndex first;  ///< Of the mask.
 };
 
+/// Takes points of the map to the frame where a motion starts.
+struct SweepChecker::StartFrame {
+  explicit StartFrame(const Pose2& map_T_start)
+      : position_m(map_T_start.position()),
+        cosine(std::cos(map_T_start.yaw())),
+        sine(std::sin(map_T_start.yaw())) {}
+
+  Eigen::Vector2d toStart(const Eigen::Vector2d& map_point_m) const {
+    const Eigen::Vector2d off = map_point_m - position_m;
+    return {cosine * off.x() + sine * off.y(), cosine * off.y() - sine * off.x()};
+  }
+
+  Eigen::Vector2d position_m;
+  double cosine;
+  double sine;
+};
+
 std::shared_ptr<const HeightClasses> SweepChecker::heightClasses(const CollisionChecker& checker,
                                                                  const Bodies& bodies) {
-  return std::make_shared<HeightClasses>(bodies, checker.columns().slice_m);
+  return std::make_shared<HeightClasses>(bodies, *checker.mapColumns());
 }
 
 SweepChecker::SweepChecker(CollisionChecker checker, std::shared_ptr<const HeightClasses> classes,
@@ -129,8 +146,7 @@ bool SweepChecker::place(const Sweep& sweep, const Pose2& map_T_start, Place* pl
   const Sweep::Turned turned = sweep.mask(map_T_start.yaw());
   place->mask = turned.mask;
   place->quarter = turned.quarters;
-  place->first =
-      images.occupied.turn({static_cast<int>(x), static_cast<int>(y)}, turned.quarters);
+  place->first = images.occupied.turn({static_cast<int>(x), static_cast<int>(y)}, turned.quarters);
   place->first.x += place->mask->firstColumn();
   place->first.y += place->mask->firstRow();
   return true;
@@ -139,16 +155,15 @@ bool SweepChecker::place(const Sweep& sweep, const Pose2& map_T_start, Place* pl
 bool SweepChecker::mayCollide(const Sweep& sweep, const Pose2& map_T_start) const {
   Place at;
   if (!place(sweep, map_T_start, &at)) return collidesPoseByPose(sweep, map_T_start);
-  return testMask(*at.mask, around_->occupied.image(at.quarter), nullptr, at.first.x,
-                  at.first.y) != MaskAnswer::kFree;
+  return testMask(*at.mask, around_->occupied.image(at.quarter), nullptr, at.first.x, at.first.y) !=
+         MaskAnswer::kFree;
 }
 
 bool SweepChecker::collides(const Sweep& sweep, const Pose2& map_T_start) const {
   Place at;
   if (!place(sweep, map_T_start, &at)) return collidesPoseByPose(sweep, map_T_start);
-  const MaskAnswer answer =
-      testMask(*at.mask, around_->occupied.image(at.quarter), &map_->filled.image(at.quarter),
-               at.first.x, at.first.y);
+  const MaskAnswer answer = testMask(*at.mask, around_->occupied.image(at.quarter),
+                                     &map_->filled.image(at.quarter), at.first.x, at.first.y);
   return answer == MaskAnswer::kCertain ||
          (answer == MaskAnswer::kMay && touchesHitCells(sweep, map_T_start, at));
 }
@@ -174,7 +189,7 @@ bool SweepChecker::touchesHitCells(const Sweep& sweep, const Pose2& map_T_start,
   const SweepMask& mask = *place.mask;
   const CollisionChecker::Columns& map = checker_.data_->map->columns;
   const CollisionChecker::Columns& around = checker_.columns();
-  const Pose2 start_T_map = map_T_start.inverse();
+  const StartFrame start(map_T_start);
   bool outside = false;
   bool solids = false;
   for (int tile = 0; tile < mask.strips() * mask.steps(); ++tile) {
@@ -189,7 +204,7 @@ bool SweepChecker::touchesHitCells(const Sweep& sweep, const Pose2& map_T_start,
           continue;
         }
         const std::size_t column = static_cast<std::size_t>(cell.y) * map.width + cell.x;
-        if (map.bits[column] != 0 && touchesCell(sweep, start_T_map, column)) return true;
+        if (map.bits[column] != 0 && touchesCell(sweep, start, column)) return true;
         solids = solids || around.bits[column] != map.bits[column];
       }
     }
@@ -197,22 +212,28 @@ bool SweepChecker::touchesHitCells(const Sweep& sweep, const Pose2& map_T_start,
   return (outside || solids) && touchesRest(sweep, map_T_start, outside, solids);
 }
 
-bool SweepChecker::touchesCell(const Sweep& sweep, const Pose2& start_T_map,
+bool SweepChecker::touchesCell(const Sweep& sweep, const StartFrame& start,
                                std::size_t column) const {
   const MapColumns& map = *checker_.data_->map;
-  const double half_m = map.columns.resolution_m / 2.0;
-  const Eigen::Vector2d corner = columnCorner(map.columns, column);
-  const Shadow square =
-      transformed(start_T_map, rectangle(corner, corner.array() + 2.0 * half_m));
-  const Eigen::Vector2d centre = (square.points[0] + square.points[2]) / 2.0;
-  const Eigen::Vector2d u = (square.points[1] - square.points[0]) / 2.0;
-  const Eigen::Vector2d v(-u.y(), u.x());
+  const double side_m = map.columns.resolution_m;
+  const Eigen::Vector2d along(start.cosine * side_m, -start.sine * side_m);
+  const Eigen::Vector2d across(-along.y(), along.x());
+  Shadow square;
+  square.count = 4;
+  square.points[0] = start.toStart(columnCorner(map.columns, column));
+  square.points[1] = square.points[0] + along;
+  square.points[2] = square.points[1] + across;
+  square.points[3] = square.points[0] + across;
+  const SweepHulls::Square place{(square.points[0] + square.points[2]) / 2.0, along / 2.0,
+                                 across / 2.0};
   std::uint32_t classes = 0;
   for (int c = 0; c < classes_->count(); ++c) {
     classes |= (map.columns.bits[column] & classes_->slices(c)) != 0 ? 1U << c : 0U;
   }
-  for (const SweepHulls::Hull& hull : sweep.hulls().all()) {
-    if ((hull.classes & classes) == 0 || !sweep.hulls().mayTouch(hull, centre, u, v)) continue;
+  const SweepHulls& hulls = sweep.hulls();
+  for (const std::uint32_t index : hulls.near(place.centre_m)) {
+    const SweepHulls::Hull& hull = hulls.hull(index);
+    if ((hull.classes & classes) == 0 || !hulls.mayTouch(hull, place)) continue;
     if (touchesCellWithin(sweep, hull.track, hull.first_pose, hull.last_pose, hull.parts, square,
                           column)) {
       return true;

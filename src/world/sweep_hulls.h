@@ -25,14 +25,34 @@ class SweepHulls {
     std::vector<int> parts;  ///< Of the track's body.
   };
 
-  explicit SweepHulls(const std::vector<SweptShape>& covering);
+  /// @param resolution_m  Side of the cells.
+  SweepHulls(const std::vector<SweptShape>& covering, double resolution_m);
 
-  const std::vector<Hull>& all() const { return hulls_; }
+  /// A square in the frame where the motion starts, its half axes being +-u_m and +-v_m.
+  struct Square {
+    Eigen::Vector2d centre_m;
+    Eigen::Vector2d u_m;
+    Eigen::Vector2d v_m;
+  };
 
-  /// False only if the hull does not overlap the square around `centre_m` with the half axes
-  /// +-u_m, +-v_m.
-  bool mayTouch(const Hull& hull, const Eigen::Vector2d& centre_m, const Eigen::Vector2d& u_m,
-                const Eigen::Vector2d& v_m) const;
+  /// Indices of the hulls that may touch the cell around a point, whichever way it is turned.
+  struct Range {
+    const std::uint32_t* first = nullptr;
+    const std::uint32_t* last = nullptr;
+    const std::uint32_t* begin() const { return first; }
+    const std::uint32_t* end() const { return last; }
+  };
+  Range near(const Eigen::Vector2d& centre_m) const {
+    const Eigen::Vector2d at = (centre_m - low_m_) / place_m_;
+    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < columns_ && at.y() < rows_)) return {};
+    const int place = static_cast<int>(at.y()) * columns_ + static_cast<int>(at.x());
+    return {near_.data() + begins_[place], near_.data() + begins_[place + 1]};
+  }
+
+  const Hull& hull(std::uint32_t index) const { return hulls_[index]; }
+
+  /// False only if the hull's outline does not overlap the square.
+  bool mayTouch(const Hull& hull, const Square& square) const;
 
  private:
   /// The polygon lies where normal . p <= offset_m.
@@ -41,8 +61,17 @@ class SweepHulls {
     double offset_m;
   };
 
+  void makeGrid(double resolution_m);
+
   std::vector<Hull> hulls_;
   std::vector<Edge> edges_;
+  // Hulls by the places of cells that they may touch.
+  double place_m_ = 0.0;  ///< Side of a place.
+  Eigen::Vector2d low_m_{0.0, 0.0};
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::uint32_t> begins_;  ///< Of each place in `near_`; one more at the end.
+  std::vector<std::uint32_t> near_;
 };
 
 }  // namespace casepush

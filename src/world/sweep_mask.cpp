@@ -28,7 +28,7 @@ bool isEmpty(const Line& line) {
 
 /// Appends what the classes have in a tile and returns which of them have anything.
 std::uint8_t appendClasses(const MaskCanvas& canvas, int strip, int step,
-                            std::vector<Line>* lines) {
+                           std::vector<Line>* lines) {
   std::uint8_t present = 0;
   for (int c = 0; c < canvas.classes(); ++c) {
     const Line line = lineOf(canvas, c, strip, step);

@@ -47,9 +47,9 @@ class alignas(64) SweepMask {
   }
   const std::uint64_t* any(int tile) const { return line(tile); }
   Tile tile(int index) const {
-    return index < kOwnTiles ? tiles_[index]
-                             : reinterpret_cast<const Tile*>(
-                                   line(strips_ * steps_))[index - kOwnTiles];
+    return index < kOwnTiles
+               ? tiles_[index]
+               : reinterpret_cast<const Tile*>(line(strips_ * steps_))[index - kOwnTiles];
   }
 
  private:

@@ -46,9 +46,8 @@ std::vector<Outline> outlines(const Footprint& body, const HeightClasses& classe
     const ConvexPart& part = body.parts()[i];
     Outline outline{simplified(part.shadow()), classes.touchedBy(part), {static_cast<int>(i)}};
     outline.shadow.radius_m += body.margin();
-    const auto around = std::find_if(kept.begin(), kept.end(), [&](const Outline& other) {
-      return isWithin(outline, other);
-    });
+    const auto around = std::find_if(
+        kept.begin(), kept.end(), [&](const Outline& other) { return isWithin(outline, other); });
     if (around != kept.end()) {
       around->parts.push_back(static_cast<int>(i));
       continue;

@@ -19,8 +19,7 @@ class TurnedBitmaps {
   static constexpr int kQuarters = 4;
 
   TurnedBitmaps() = default;
-  TurnedBitmaps(int layers, int width, int height, int border)
-      : size_{width, height} {
+  TurnedBitmaps(int layers, int width, int height, int border) : size_{width, height} {
     for (int q = 0; q < kQuarters; ++q) {
       const bool upright = q % 2 == 0;
       images_[q] =

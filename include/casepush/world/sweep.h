@@ -28,7 +28,8 @@ struct Track {
 ///
 /// For each of 128 headings of the start there is a mask of the cells that may be covered, for each
 /// class of heights, and one of the cells that certainly are. Headings a quarter turn apart share
-/// them. A heading's masks are made when they are first asked for (some 50 us) and kept. Thread safety: const methods are reentrant.
+/// them. A heading's masks are made when they are first asked for (some 50 us) and kept. Thread
+/// safety: const methods are reentrant.
 class Sweep {
  public:
   /// @param classes  Height classes of all bodies involved.

@@ -49,11 +49,12 @@ class SweepChecker {
  private:
   struct Images;
   struct Place;
+  struct StartFrame;
 
   bool place(const Sweep& sweep, const Pose2& map_T_start, Place* place) const;
   std::uint64_t hitsOf(const Place& place, int tile, int row) const;
   bool touchesHitCells(const Sweep& sweep, const Pose2& map_T_start, const Place& place) const;
-  bool touchesCell(const Sweep& sweep, const Pose2& start_T_map, std::size_t column) const;
+  bool touchesCell(const Sweep& sweep, const StartFrame& start, std::size_t column) const;
   bool touchesCellWithin(const Sweep& sweep, int track, int first_pose, int last_pose,
                          const std::vector<int>& parts, const Shadow& start_square,
                          std::size_t column) const;
