@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "casepush/common/random.h"
 #include "casepush/common/violations.h"
@@ -103,8 +104,10 @@ struct FclBodies {
 /// Measures room after room.
 class Measurement {
  public:
-  Measurement(const Catalog& catalog, const CollisionBenchmarkOptions& options)
+  Measurement(const Catalog& catalog, const CollisionBenchmarkOptions& options,
+              std::function<void(int)> progress)
       : options_(options),
+        progress_(std::move(progress)),
         object_(catalog.object(options.object)),
         robot_(catalog.robot(options.robot)),
         random_(Random::stream(options.seed, "collision benchmark")) {
@@ -162,6 +165,12 @@ class Measurement {
     }
   }
 
+  /// Called for every test of FCL, which takes nearly all of the time.
+  void showProgress() {
+    const int percent = std::max(1, options_.tests / 100);
+    if (progress_ && shown_++ % percent == 0) progress_(shown_ - 1);
+  }
+
   Test randomTest() {
     Test test;
     test.motion = static_cast<int>(random_.below(static_cast<std::uint64_t>(options_.motions)));
@@ -202,6 +211,7 @@ class Measurement {
     const FclBodies shrunk(object_.solid, robot_.solid, kDoubt_m);
     const FclBodies grown(object_.solid, robot_.solid, -kDoubt_m);
     answers[0] = run(0, tests, [&](const Test& test) {
+      showProgress();
       return bodies.collide(fcl, motions[test.motion], test.map_T_start);
     });
     for (std::size_t i = 0; i < tests.size(); ++i) {
@@ -223,6 +233,8 @@ class Measurement {
   }
 
   CollisionBenchmarkOptions options_;
+  std::function<void(int)> progress_;
+  int shown_ = 0;
   ObjectModel object_;
   RobotModel robot_;
   Random random_;
@@ -248,9 +260,8 @@ CollisionBenchmark measureCollisionChecking(const Catalog& catalog,
                                             const CollisionBenchmarkOptions& options,
                                             const std::function<void(int)>& progress) {
   options.validate();
-  Measurement measurement(catalog, options);
+  Measurement measurement(catalog, options, progress);
   for (int room = 0; room < options.rooms; ++room) {
-    if (progress) progress(room);
     const int first = static_cast<int>(std::int64_t{options.tests} * room / options.rooms);
     const int end = static_cast<int>(std::int64_t{options.tests} * (room + 1) / options.rooms);
     measurement.measureRoom(end - first);

@@ -138,14 +138,21 @@ struct CollisionArguments {
   CollisionBenchmarkOptions options;
 };
 
+/// ", 2 min 10 s left", once that can be told.
+std::string timeLeft(double spent_s, int done, int all) {
+  if (done == 0) return "";
+  return ", " + durationText(spent_s / done * (all - done)) + " left";
+}
+
 int benchCollision(const CollisionArguments& arguments) {
   const Stopwatch watch;
   ProgressLine line;
   CollisionBenchmarkOptions options = arguments.options;
   options.seed = arguments.common.seed;
   const CollisionBenchmark measured =
-      measureCollisionChecking(Catalog::standard(), options, [&](int room) {
-        line.show("room " + std::to_string(room + 1) + "/" + std::to_string(options.rooms));
+      measureCollisionChecking(Catalog::standard(), options, [&](int done) {
+        line.show(std::to_string(done) + "/" + std::to_string(options.tests) + " tests" +
+                  timeLeft(watch.seconds(), done, options.tests));
       });
   nlohmann::ordered_json backends = nlohmann::ordered_json::array();
   const double fcl = measured.backends.front().tests_per_s;

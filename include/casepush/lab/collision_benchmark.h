@@ -42,7 +42,7 @@ struct CollisionBenchmark {
 ///
 /// 20 poses of the object, 6 around its end and 20 of the robot; every back-end gets the same tests
 /// in the same order. Without FCL its figures and all comparisons are 0.
-/// @param progress  Called with the number of finished rooms.
+/// @param progress  Called now and then with the number of tests that FCL has answered.
 /// @throws InputError from the catalog or validate().
 CollisionBenchmark measureCollisionChecking(const Catalog& catalog,
                                             const CollisionBenchmarkOptions& options,
