@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "casepush/common/check.h"
-#include "slab.h"
+#include "mask_canvas.h"
 
 namespace casepush {
 namespace {
@@ -22,7 +23,11 @@ Footprint::Footprint(const Solid& solid, double margin_m, double resolution_m, d
   }
   reach_m_ += margin_m;
   reach_cells_ = static_cast<int>(std::ceil(reach_m_ * (1.0 + kBin_rad) / resolution_m)) + 1;
-  for (int bin = 0; bin < kHeadings; ++bin) entries_.push_back(rasterise(bin * kBin_rad, slice_m));
+  std::vector<std::vector<Slab>> part_slabs;
+  for (const ConvexPart& part : parts_) part_slabs.push_back(slabs(part, slice_m));
+  for (int bin = 0; bin < kHeadings; ++bin) {
+    entries_.push_back(rasterise(bin * kBin_rad, part_slabs));
+  }
 }
 
 const std::vector<Footprint::Entry>& Footprint::entries(double yaw_rad) const {
@@ -30,30 +35,20 @@ const std::vector<Footprint::Entry>& Footprint::entries(double yaw_rad) const {
   return entries_[static_cast<std::size_t>(bin) & (kHeadings - 1)];
 }
 
-std::vector<Footprint::Entry> Footprint::rasterise(double yaw_rad, double slice_m) const {
+std::vector<Footprint::Entry> Footprint::rasterise(
+    double yaw_rad, const std::vector<std::vector<Slab>>& part_slabs) const {
   const int side = 2 * reach_cells_ + 1;
   std::vector<std::uint64_t> grid(static_cast<std::size_t>(side) * side, 0);
-  const auto cell = [&](double coordinate_m) {
-    const int index = static_cast<int>(std::floor(coordinate_m / resolution_m_));
-    return std::clamp(index, -reach_cells_, reach_cells_);
-  };
-  for (const ConvexPart& part : parts_) {
+  MaskPen pen(yaw_rad, kBin_rad / 2.0, resolution_m_);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
     // No point of the part moves further than this within half a heading bin.
-    const double grown_m = margin_m_ + 2.0 * part.reach() * std::sin(kBin_rad / 4.0);
-    for (const Slab& slab : slabs(part, slice_m)) {
-      const Shadow shadow = transformed({0.0, 0.0, yaw_rad}, slab.shadow);
-      Eigen::Vector2d low;
-      Eigen::Vector2d high;
-      shadowBounds(shadow, &low, &high);
-      for (int dy = cell(low.y() - grown_m); dy <= cell(high.y() + grown_m) + 1; ++dy) {
-        for (int dx = cell(low.x() - grown_m); dx <= cell(high.x() + grown_m) + 1; ++dx) {
-          if (dx > reach_cells_ || dy > reach_cells_) continue;
-          // The origin lies anywhere in its cell, so the cell is seen anywhere in two by two.
-          const Eigen::Vector2d corner = Eigen::Vector2d(dx, dy) * resolution_m_;
-          const Shadow square =
-              rectangle(corner.array() - resolution_m_, corner.array() + resolution_m_);
-          if (!closerThan(shadow, square, grown_m)) continue;
-          grid[(dy + reach_cells_) * side + dx + reach_cells_] |= slab.slices;
+    const double grown_m = margin_m_ + 2.0 * parts_[i].reach() * std::sin(kBin_rad / 4.0);
+    for (const Slab& slab : part_slabs[i]) {
+      for (const MaskPen::Row& row : pen.cover(slab.shadow, grown_m)) {
+        if (std::abs(row.y) > reach_cells_) continue;
+        const int last = std::min(row.last, reach_cells_);
+        for (int dx = std::max(row.first, -reach_cells_); dx <= last; ++dx) {
+          grid[(row.y + reach_cells_) * side + dx + reach_cells_] |= slab.slices;
         }
       }
     }

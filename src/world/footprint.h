@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "casepush/world/shadow.h"
+#include "slab.h"
 
 namespace casepush {
 
@@ -35,7 +36,8 @@ class Footprint {
   int reachCells() const { return reach_cells_; }  ///< Bound of |dx| and |dy|.
 
  private:
-  std::vector<Entry> rasterise(double yaw_rad, double slice_m) const;
+  std::vector<Entry> rasterise(double yaw_rad,
+                               const std::vector<std::vector<Slab>>& part_slabs) const;
 
   std::vector<ConvexPart> parts_;
   std::vector<BoundingDisc> discs_;

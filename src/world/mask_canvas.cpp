@@ -142,18 +142,26 @@ void MaskPen::addEdges(double radius) {
   }
 }
 
-void MaskPen::drawCovering(const SweptShape& shape, MaskCanvas* canvas) {
-  turn(shape.shadow);
-  const double radius = (shape.shadow.radius_m + kRounding_m) * cells_per_m_ + play(shape);
-  // One more at each end, for what rounding makes of an edge that just ends there.
+const std::vector<MaskPen::Row>& MaskPen::cover(const Shadow& shadow, double grown_m) {
+  turn(shadow);
+  const double radius = (shadow.radius_m + grown_m + kRounding_m) * cells_per_m_;
   const int first = firstCell(bottom_ - radius);
   const int last = lastCell(top_ + radius);
+  // One more at each end, for what rounding makes of an edge that just ends there.
   clearRows(first - 1, last + 1, kInfinity, -kInfinity);
   addCorners(radius);
   if (count_ > 1) addEdges(radius);
+  cover_.clear();
   for (int y = first; y <= last; ++y) {
     const std::size_t row = y - first_row_;
-    canvas->draw(shape.classes, y, firstCell(low_[row]), lastCell(high_[row]));
+    cover_.push_back({y, firstCell(low_[row]), lastCell(high_[row])});
+  }
+  return cover_;
+}
+
+void MaskPen::drawCovering(const SweptShape& shape, MaskCanvas* canvas) {
+  for (const Row& row : cover(shape.shadow, play(shape) / cells_per_m_)) {
+    canvas->draw(shape.classes, row.y, row.first, row.last);
   }
 }
 

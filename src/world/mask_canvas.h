@@ -47,8 +47,18 @@ class MaskPen {
   /// @param half_bin_rad  Masks are to be valid for headings within +- this of `yaw_rad`.
   MaskPen(double yaw_rad, double half_bin_rad, double resolution_m);
 
-  /// Cells that the shape may reach into, wherever in its cell the start lies. A canvas for them
-  /// must hold boxOf().
+  /// Cells first, ..., last of a row.
+  struct Row {
+    int y;
+    int first;
+    int last;
+  };
+
+  /// Cells that a grown shadow may reach into at the heading itself, wherever in its cell the start
+  /// lies. Valid until the next call.
+  const std::vector<Row>& cover(const Shadow& shadow, double grown_m);
+
+  /// The same for all headings of the bin. A canvas for it must hold boxOf().
   void drawCovering(const SweptShape& shape, MaskCanvas* canvas);
   CellBox boxOf(const std::vector<SweptShape>& shapes) const;
 
@@ -78,6 +88,7 @@ class MaskPen {
   int first_row_ = 0;
   std::vector<double> low_;  ///< Of each row from first_row_ on.
   std::vector<double> high_;
+  std::vector<Row> cover_;
 };
 
 }  // namespace casepush
