@@ -53,7 +53,8 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
   ChainPlan made;
   const bool is_lattice = problem.options.planner == PlannerKind::kLattice;
   const OriginDistance map(checker->collisions().columns(), problem.object.solid,
-                           request.map_T_goal.position(), request.tolerance.position_m);
+                           request.map_T_goal.position(), request.tolerance.position_m,
+                           [&clock] { return clock.isOver(); });
   if (!std::isfinite(map.at(request.object.map_T_object.position()))) {
     made.end = PlanSearch::End::kCutOff;
     return made;

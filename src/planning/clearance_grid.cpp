@@ -12,16 +12,6 @@ namespace {
 
 constexpr int kSlices = 64;
 
-/// Bits of the slices that a disc reaches into.
-std::uint64_t slices(const TravelDisc& disc, double slice_m) {
-  const auto index = [&](double z_m) {
-    return static_cast<int>(std::clamp(std::floor(z_m / slice_m), 0.0, kSlices - 1.0));
-  };
-  const int first = index(disc.low_m + kContactTolerance_m);
-  const int last = std::max(first, index(disc.high_m - kContactTolerance_m));
-  return (~std::uint64_t{0} << first) & (~std::uint64_t{0} >> (kSlices - 1 - last));
-}
-
 /// Largest distance of the shadow from the frame's origin.
 double reach(const Shadow& shadow) {
   double result = 0.0;
@@ -30,6 +20,15 @@ double reach(const Shadow& shadow) {
 }
 
 }  // namespace
+
+std::uint64_t slicesOf(const TravelDisc& disc, double slice_m) {
+  const auto index = [&](double z_m) {
+    return static_cast<int>(std::clamp(std::floor(z_m / slice_m), 0.0, kSlices - 1.0));
+  };
+  const int first = index(disc.low_m + kContactTolerance_m);
+  const int last = std::max(first, index(disc.high_m - kContactTolerance_m));
+  return (~std::uint64_t{0} << first) & (~std::uint64_t{0} >> (kSlices - 1 - last));
+}
 
 std::vector<TravelDisc> travelDiscs(const Solid& solid, double margin_m) {
   const std::vector<ConvexPart> parts = convexParts(solid);
@@ -76,7 +75,7 @@ ClearanceGrid::ClearanceGrid(const CollisionChecker::Columns& columns,
   for (float& value : clearance_m_) value -= static_cast<float>(widest_m);
   std::vector<std::uint8_t> occupied(columns.bits.size());
   for (const TravelDisc& disc : discs) {
-    const std::uint64_t mask = slices(disc, columns.slice_m);
+    const std::uint64_t mask = slicesOf(disc, columns.slice_m);
     std::transform(columns.bits.begin(), columns.bits.end(), occupied.begin(),
                    [mask](std::uint64_t bits) { return (bits & mask) != 0; });
     const std::vector<float> distance = distanceToSquares(occupied, width_, height_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct TravelDisc {
   double high_m;
   double radius_m;
 };
+
+/// Bits of the height slices that a disc reaches into.
+std::uint64_t slicesOf(const TravelDisc& disc, double slice_m);
 
 /// A disc for each height interval between the ends of the solid's parts, grown by `margin_m`.
 std::vector<TravelDisc> travelDiscs(const Solid& solid, double margin_m);

@@ -1,10 +1,11 @@
 #include "origin_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
-#include <queue>
-#include <utility>
 
 #include "casepush/world/shadow.h"
 #include "clearance_grid.h"
@@ -12,10 +13,14 @@
 namespace casepush {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// A way along a grid's eight directions is at most 1 / cos(pi / 8) times as long as a straight
 /// one.
 const double kGridStretch = std::cos(M_PI / 8.0);
+// Whole numbers for the two lengths of a step; their ratio is just below the square root of 2, so
+// that distances are not too long, by less than 0.04 %.
+constexpr int kStraight = 29;
+constexpr int kDiagonal = OriginDistance::kLongestStep;
+constexpr int kUnreached = std::numeric_limits<int>::max();
 
 /// The largest discs around the origin that parts contain.
 std::vector<TravelDisc> innerDiscs(const Solid& object) {
@@ -34,41 +39,131 @@ std::vector<TravelDisc> innerDiscs(const Solid& object) {
 
 }  // namespace
 
-OriginDistance::OriginDistance(const CollisionChecker::Columns& columns, const Solid& object,
-                               const Eigen::Vector2d& goal_m, double tolerance_m)
-    : origin_m_(columns.origin_m),
-      resolution_m_(columns.resolution_m),
-      width_(columns.width),
-      height_(columns.height),
-      distance_m_(columns.bits.size(), kInfinity) {
-  const ClearanceGrid grid(columns, innerDiscs(object));
-  const double half_diagonal_m = resolution_m_ * M_SQRT1_2;
-  using Entry = std::pair<float, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  const auto reach = [&](int cell, float distance_m) {
-    if (distance_m >= distance_m_[cell] || grid.clearance(cell) < -half_diagonal_m) return;
-    distance_m_[cell] = distance_m;
-    open.emplace(distance_m, cell);
-  };
-  for (int cell = 0; cell < grid.size(); ++cell) {
-    if ((grid.centre(cell) - goal_m).norm() <= tolerance_m + half_diagonal_m) reach(cell, 0.0F);
+/// Cells where the object's origin cannot be, with a rim of blocked ones around the map.
+class OriginDistance::BlockedCells {
+ public:
+  BlockedCells(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs)
+      : columns_(columns),
+        stride_(columns.width + 2 * kRim),
+        blocked_(static_cast<std::size_t>(stride_) * (columns.height + 2 * kRim), 1) {
+    // A disc that leaves the map, or reaches into an occupied cell, wherever in its own the origin
+    // lies.
+    double widest = 0.0;
+    for (const TravelDisc& disc : discs) widest = std::max(widest, radiusInCells(disc));
+    const int margin = static_cast<int>(std::ceil(std::max(0.0, widest - 0.5)));
+    for (int y = margin; y < columns.height - margin; ++y) {
+      std::fill_n(blocked_.begin() + index(margin, y), std::max(0, columns.width - 2 * margin), 0);
+    }
+    for (const TravelDisc& disc : discs) add(slicesOf(disc, columns.slice_m), radiusInCells(disc));
   }
-  while (!open.empty()) {
-    const auto [distance_m, cell] = open.top();
-    open.pop();
-    if (distance_m > distance_m_[cell]) continue;
-    const int x = cell % width_;
-    const int y = cell / width_;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int nx = x + dx;
-        const int ny = y + dy;
-        if ((dx == 0 && dy == 0) || nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
-        const double step_m = resolution_m_ * (dx != 0 && dy != 0 ? M_SQRT2 : 1.0);
-        reach(ny * width_ + nx, distance_m + static_cast<float>(step_m));
+
+  int stride() const { return stride_; }
+  int index(int x, int y) const { return (y + kRim) * stride_ + x + kRim; }
+  bool operator[](int cell) const { return blocked_[cell] != 0; }
+  std::size_t size() const { return blocked_.size(); }
+
+ private:
+  static constexpr int kRim = 1;
+
+  double radiusInCells(const TravelDisc& disc) const {
+    return disc.radius_m / columns_.resolution_m - M_SQRT1_2;
+  }
+
+  void add(std::uint64_t slices, double radius) {
+    if (radius <= 0.0) return;
+    std::vector<int> half_widths;  // Of the rows 0, 1, ... above and below an occupied cell.
+    for (double up = 0.0; up < radius; up = static_cast<double>(half_widths.size()) - 0.5) {
+      half_widths.push_back(
+          static_cast<int>(std::ceil(0.5 + std::sqrt(radius * radius - up * up))) - 1);
+    }
+    const auto occupied = [&](int x, int y) {
+      return (columns_.bits[static_cast<std::size_t>(y) * columns_.width + x] & slices) != 0;
+    };
+    for (int y = 0; y < columns_.height; ++y) {
+      for (int x = 0; x < columns_.width; ++x) {
+        if (!occupied(x, y)) continue;
+        const bool is_inner = x > 0 && y > 0 && x + 1 < columns_.width && y + 1 < columns_.height &&
+                              occupied(x - 1, y) && occupied(x + 1, y) && occupied(x, y - 1) &&
+                              occupied(x, y + 1);
+        // What such a cell reaches, its neighbours reach as well.
+        if (is_inner) {
+          blocked_[index(x, y)] = 1;
+        } else {
+          addAround(x, y, half_widths);
+        }
       }
     }
   }
+
+  void addAround(int x, int y, const std::vector<int>& half_widths) {
+    const int rows = static_cast<int>(half_widths.size());
+    const int last_row = std::min(columns_.height - 1, y + rows - 1);
+    for (int row = std::max(0, y - rows + 1); row <= last_row; ++row) {
+      const int half = half_widths[std::abs(row - y)];
+      const int first = std::max(0, x - half);
+      const int last = std::min(columns_.width - 1, x + half);
+      std::fill_n(blocked_.begin() + index(first, row), last - first + 1, 1);
+    }
+  }
+
+  const CollisionChecker::Columns& columns_;
+  int stride_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+OriginDistance::OriginDistance(const CollisionChecker::Columns& columns, const Solid& object,
+                               const Eigen::Vector2d& goal_m, double tolerance_m,
+                               const std::function<bool()>& stop)
+    : origin_m_(columns.origin_m),
+      resolution_m_(columns.resolution_m),
+      width_(columns.width),
+      height_(columns.height) {
+  const BlockedCells blocked(columns, innerDiscs(object));
+  stride_ = blocked.stride();
+  first_ = blocked.index(0, 0);
+  distance_.assign(blocked.size(), kUnreached);
+  Waiting waiting;
+  const double reach_m = tolerance_m + resolution_m_ * M_SQRT1_2;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const Eigen::Vector2d centre = origin_m_ + resolution_m_ * Eigen::Vector2d(x + 0.5, y + 0.5);
+      if ((centre - goal_m).squaredNorm() > reach_m * reach_m) continue;
+      const int cell = blocked.index(x, y);
+      if (blocked[cell]) continue;
+      distance_[cell] = 0;
+      waiting[0].push_back(cell);
+    }
+  }
+  if (!spread(blocked, stop, &waiting)) std::fill(distance_.begin(), distance_.end(), 0);
+}
+
+// Dial's algorithm: cells wait by their distance, and no two that wait are more than a longest step
+// apart.
+bool OriginDistance::spread(const BlockedCells& blocked, const std::function<bool()>& stop,
+                            Waiting* waiting) {
+  const std::array<int, 8> steps = {1,           -1,          stride_,      -stride_,
+                                    stride_ + 1, stride_ - 1, -stride_ + 1, -stride_ - 1};
+  constexpr std::size_t kBetweenStops = 1 << 16;
+  std::size_t settled = 0;
+  std::size_t left = waiting->front().size();
+  for (int distance = 0; left > 0; ++distance) {
+    std::vector<int>& current = (*waiting)[distance % waiting->size()];
+    left -= current.size();
+    for (const int cell : current) {
+      if (distance_[cell] != distance) continue;
+      if (stop && ++settled % kBetweenStops == 0 && stop()) return false;
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        const int next = cell + steps[i];
+        const int reached = distance + (i < steps.size() / 2 ? kStraight : kDiagonal);
+        if (reached >= distance_[next] || blocked[next]) continue;
+        distance_[next] = reached;
+        (*waiting)[reached % waiting->size()].push_back(next);
+        ++left;
+      }
+    }
+    current.clear();
+  }
+  return true;
 }
 
 double OriginDistance::at(const Eigen::Vector2d& point_m) const {
@@ -76,8 +171,10 @@ double OriginDistance::at(const Eigen::Vector2d& point_m) const {
   if (!(index.x() >= 0.0 && index.y() >= 0.0 && index.x() < width_ && index.y() < height_)) {
     return 0.0;
   }
-  const double grid_m = distance_m_[static_cast<std::size_t>(index.y()) * width_ +
-                                    static_cast<std::size_t>(index.x())];
+  const int steps =
+      distance_[first_ + static_cast<int>(index.y()) * stride_ + static_cast<int>(index.x())];
+  if (steps == kUnreached) return std::numeric_limits<double>::infinity();
+  const double grid_m = resolution_m_ / kStraight * steps;
   // Start and end lie anywhere in their cells.
   return std::max(0.0, kGridStretch * grid_m - 2.0 * resolution_m_);
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "casepush/model/geometry.h"
@@ -13,18 +15,29 @@ namespace casepush {
 /// the heading. So no chain of pushes is shorter, and where the bound is infinite there is none.
 class OriginDistance {
  public:
+  /// @param stop  Asked now and then; once it says true, all that is known is 0.
   OriginDistance(const CollisionChecker::Columns& columns, const Solid& object,
-                 const Eigen::Vector2d& goal_m, double tolerance_m);
+                 const Eigen::Vector2d& goal_m, double tolerance_m,
+                 const std::function<bool()>& stop = {});
 
   /// At least so far to the region; infinite if it cannot be reached at all [m].
   double at(const Eigen::Vector2d& point_m) const;
 
+  static constexpr int kLongestStep = 41;  ///< Between neighbouring cells, in its own unit.
+
  private:
+  class BlockedCells;
+  using Waiting = std::array<std::vector<int>, kLongestStep + 1>;
+
+  bool spread(const BlockedCells& blocked, const std::function<bool()>& stop, Waiting* waiting);
+
   Eigen::Vector2d origin_m_;
   double resolution_m_;
   int width_;
   int height_;
-  std::vector<float> distance_m_;
+  int stride_ = 0;  ///< Cells from row to row; around the map lies a rim.
+  int first_ = 0;   ///< Index of cell (0, 0).
+  std::vector<int> distance_;
 };
 
 }  // namespace casepush

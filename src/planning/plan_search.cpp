@@ -122,7 +122,7 @@ PlanSearch::End PlanSearch::run(const SearchClock& clock) {
       if (clock.isOver()) {
         return End::kStopped;
       }
-      if (isCutOff()) {
+      if (isCutOff(clock)) {
         return End::kCutOff;
       }
       return rrt_.tree().size() >= problem_.options.max_nodes ? End::kNodeLimit : End::kExhausted;
@@ -147,7 +147,7 @@ bool PlanSearch::findFirst(const SearchClock& clock) {
   const int quick = rrt_.extensionCount() + kQuick;
   rrt_.solve(ob::PlannerTerminationCondition(
       [this, quick, &clock] { return rrt_.extensionCount() >= quick || isOver(clock, 1.0); }));
-  if (!rrt_.solutions().empty() || clock.isOver() || isCutOff()) {
+  if (!rrt_.solutions().empty() || clock.isOver() || isCutOff(clock)) {
     return !rrt_.solutions().empty();
   }
   rrt_.solve(ob::PlannerTerminationCondition([this, &clock] { return isOver(clock, 1.0); }));
@@ -161,10 +161,11 @@ bool PlanSearch::isOver(const SearchClock& clock, double share) const {
   return clock.isOver(share);
 }
 
-bool PlanSearch::isCutOff() const {
+bool PlanSearch::isCutOff(const SearchClock& clock) const {
   const OriginDistance ways(checker_->collisions().columns(), problem_.object.solid,
                             problem_.request.map_T_goal.position(),
-                            problem_.request.tolerance.position_m);
+                            problem_.request.tolerance.position_m,
+                            [&clock] { return clock.isOver(); });
   return !std::isfinite(ways.at(problem_.request.object.map_T_object.position()));
 }
 

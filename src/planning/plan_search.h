@@ -96,7 +96,7 @@ class PlanSearch {
 
  private:
   bool findFirst(const SearchClock& clock);
-  bool isCutOff() const;
+  bool isCutOff(const SearchClock& clock) const;
   bool isOver(const SearchClock& clock, double share) const;  ///< Reports, too.
   void improve(const SearchClock& clock);
   /// The first node of the chain that the robot cannot push to; -1 if there is none; nothing if

@@ -177,6 +177,7 @@ void PushPlannerOptions::validate() const {
   violations.requirePositive("risk.max_collision_probability", risk.max_collision_probability, 1.0);
   violations.require("risk.horizon", risk.horizon, 1, 1000);
   violations.require("risk.recovery_s", risk.recovery_s, 0.0, 3600.0);
+  violations.require("mask_memory_mb", mask_memory_mb, 0, 100000);
   violations.requirePositive("time.drive_speed_mps", time.drive_speed_mps, kInfinity);
   violations.requirePositive("time.turn_rate_rps", time.turn_rate_rps, kInfinity);
   violations.require("time.clearance_m", time.clearance_m, 0.0, kInfinity);
@@ -197,16 +198,17 @@ PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
   }
   CollisionChecker checker(*map);
   RobotPathPlanner paths(robot, options.robot_path);
-  data_ = std::make_unique<Data>(Data{std::move(map),
-                                      std::move(robot),
-                                      std::move(objects),
-                                      options,
-                                      std::move(checker),
-                                      std::move(paths),
-                                      {},
-                                      {},
-                                      std::make_unique<SweepLibrary>(),
-                                      {}});
+  data_ = std::make_unique<Data>(
+      Data{std::move(map),
+           std::move(robot),
+           std::move(objects),
+           options,
+           std::move(checker),
+           std::move(paths),
+           {},
+           {},
+           std::make_unique<SweepLibrary>(std::size_t{1000000} * options.mask_memory_mb),
+           {}});
   data_->robot_footprint = data_->checker.footprint(data_->robot.solid, options.robot_margin_m);
   data_->approaches = std::make_unique<ApproachLibrary>(data_->checker, data_->robot,
                                                         data_->objects, options.robot_path);

@@ -1,13 +1,17 @@
 #include "sweep_library.h"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
+#include <tuple>
 #include <utility>
 
 namespace casepush {
 namespace {
 
-/// What was not wanted for so many searches is forgotten: masks of one sweep take half a megabyte.
+/// What was not wanted for so many searches is forgotten.
 constexpr std::uint64_t kKeptFor = 16;
+constexpr double kNearlyFull = 0.75;
 
 bool same(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
   if (a.size() != b.size()) return false;
@@ -53,32 +57,67 @@ std::vector<Track> tracksOf(const PreparedCase& push_case,
 
 }  // namespace
 
+SweepLibrary::Entry& SweepLibrary::entryOf(std::vector<Track> tracks,
+                                           const std::shared_ptr<const HeightClasses>& classes) {
+  const std::size_t hash = hashOf(tracks);
+  const auto [first, last] = entries_.equal_range(hash);
+  for (auto entry = first; entry != last; ++entry) {
+    if (entry->second.classes == classes && same(entry->second.sweep->tracks(), tracks)) {
+      return entry->second;
+    }
+  }
+  Entry entry;
+  entry.classes = classes;
+  entry.sweep = std::make_shared<const Sweep>(std::move(tracks), classes, memory_);
+  return entries_.emplace(hash, std::move(entry))->second;
+}
+
+void SweepLibrary::forgetUnused() {
+  for (auto entry = entries_.begin(); entry != entries_.end();) {
+    entry = entry->second.last_use + kKeptFor < uses_ ? entries_.erase(entry) : std::next(entry);
+  }
+}
+
+void SweepLibrary::makeRoom() {
+  std::vector<Entries::iterator> oldest;
+  for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+    Entry& own = entry->second;
+    const std::size_t bytes = own.sweep->bytes();
+    if (bytes != own.bytes) own.last_growth = uses_;
+    own.bytes = bytes;
+    if (bytes > 0) oldest.push_back(entry);
+  }
+  const auto nearly_full = static_cast<std::size_t>(kNearlyFull * memory_->limit());
+  if (memory_->used() < nearly_full) return;
+  std::sort(oldest.begin(), oldest.end(), [](const auto& a, const auto& b) {
+    return std::tie(a->second.last_use, a->second.last_growth) <
+           std::tie(b->second.last_use, b->second.last_growth);
+  });
+  // What another search still works with is freed when that ends.
+  std::size_t used = memory_->used();
+  for (const auto& entry : oldest) {
+    if (used <= memory_->limit() / 2) break;
+    used -= std::min(used, entry->second.bytes);
+    Entry fresh = entry->second;
+    fresh.sweep = std::make_shared<const Sweep>(fresh.sweep->tracks(), fresh.classes, memory_);
+    fresh.bytes = 0;
+    entry->second = std::move(fresh);
+  }
+}
+
 void SweepLibrary::attach(const std::shared_ptr<const HeightClasses>& classes,
                           const std::shared_ptr<const Footprint>& object,
                           const std::shared_ptr<const Footprint>& robot,
                           std::vector<PreparedCase>* cases) {
-  if (cases->size() > kMost) return;
   const std::lock_guard<std::mutex> lock(mutex_);
+  makeRoom();
   ++uses_;
   for (PreparedCase& push_case : *cases) {
-    std::vector<Track> tracks = tracksOf(push_case, object, robot);
-    const std::size_t hash = hashOf(tracks);
-    const auto [first, last] = entries_.equal_range(hash);
-    auto found = first;
-    while (found != last &&
-           !(found->second.classes == classes && same(found->second.sweep->tracks(), tracks))) {
-      ++found;
-    }
-    if (found == last) {
-      auto sweep = std::make_shared<const Sweep>(std::move(tracks), classes);
-      found = entries_.emplace(hash, Entry{classes, std::move(sweep)});
-    }
-    found->second.last_use = uses_;
-    push_case.sweep = found->second.sweep;
+    Entry& entry = entryOf(tracksOf(push_case, object, robot), classes);
+    entry.last_use = uses_;
+    push_case.sweep = entry.sweep;
   }
-  for (auto entry = entries_.begin(); entry != entries_.end();) {
-    entry = entry->second.last_use + kKeptFor < uses_ ? entries_.erase(entry) : std::next(entry);
-  }
+  forgetUnused();
 }
 
 }  // namespace casepush

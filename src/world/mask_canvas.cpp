@@ -59,12 +59,12 @@ MaskPen::MaskPen(double yaw_rad, double half_bin_rad, double resolution_m)
       play_(2.0 * std::sin(half_bin_rad / 2.0) / resolution_m),
       cells_per_m_(1.0 / resolution_m) {}
 
-void MaskPen::turn(const Shadow& shadow) {
-  count_ = shadow.count;
+void MaskPen::turn(const Eigen::Vector2d* points, int count) {
+  count_ = count;
   bottom_ = kInfinity;
   top_ = -kInfinity;
   for (int i = 0; i < count_; ++i) {
-    const Eigen::Vector2d& p = shadow.points[i];
+    const Eigen::Vector2d& p = points[i];
     x_[i] = cosine_ * p.x() - sine_ * p.y();
     y_[i] = sine_ * p.x() + cosine_ * p.y();
     bottom_ = std::min(bottom_, y_[i]);
@@ -83,9 +83,8 @@ CellBox MaskPen::boxOf(const std::vector<SweptShape>& shapes) const {
   double bottom = kInfinity;
   double top = -kInfinity;
   for (const SweptShape& shape : shapes) {
-    const double radius = (shape.shadow.radius_m + kRounding_m) * cells_per_m_ + play(shape);
-    for (int i = 0; i < shape.shadow.count; ++i) {
-      const Eigen::Vector2d& p = shape.shadow.points[i];
+    const double radius = (shape.radius_m + kRounding_m) * cells_per_m_ + play(shape);
+    for (const Eigen::Vector2d& p : shape.points) {
       const double x = cosine_ * p.x() - sine_ * p.y();
       const double y = sine_ * p.x() + cosine_ * p.y();
       left = std::min(left, x - radius);
@@ -142,9 +141,7 @@ void MaskPen::addEdges(double radius) {
   }
 }
 
-const std::vector<MaskPen::Row>& MaskPen::cover(const Shadow& shadow, double grown_m) {
-  turn(shadow);
-  const double radius = (shadow.radius_m + grown_m + kRounding_m) * cells_per_m_;
+void MaskPen::cover(double radius) {
   const int first = firstCell(bottom_ - radius);
   const int last = lastCell(top_ + radius);
   // One more at each end, for what rounding makes of an edge that just ends there.
@@ -156,13 +153,18 @@ const std::vector<MaskPen::Row>& MaskPen::cover(const Shadow& shadow, double gro
     const std::size_t row = y - first_row_;
     cover_.push_back({y, firstCell(low_[row]), lastCell(high_[row])});
   }
+}
+
+const std::vector<MaskPen::Row>& MaskPen::cover(const Shadow& shadow, double grown_m) {
+  turn(shadow.points.data(), shadow.count);
+  cover((shadow.radius_m + grown_m + kRounding_m) * cells_per_m_);
   return cover_;
 }
 
 void MaskPen::drawCovering(const SweptShape& shape, MaskCanvas* canvas) {
-  for (const Row& row : cover(shape.shadow, play(shape) / cells_per_m_)) {
-    canvas->draw(shape.classes, row.y, row.first, row.last);
-  }
+  turn(shape.points.data(), static_cast<int>(shape.points.size()));
+  cover((shape.radius_m + kRounding_m) * cells_per_m_ + play(shape));
+  for (const Row& row : cover_) canvas->draw(shape.classes, row.y, row.first, row.last);
 }
 
 // The x at each row's lower border around which everything within the inset lies in the polygon.
@@ -202,11 +204,11 @@ void MaskPen::cutDisc(double radius) {
 
 void MaskPen::drawCertain(const SweptShape& shape, MaskCanvas* canvas) {
   const double erosion = kCertain_m * cells_per_m_ + play(shape);
-  const double own = shape.shadow.radius_m * cells_per_m_;
-  const bool is_disc = shape.shadow.count == 1;
+  const double own = shape.radius_m * cells_per_m_;
+  const bool is_disc = shape.points.size() == 1;
   const double radius = is_disc ? own - erosion : 0.0;
   if (radius < 0.0 || (is_disc && radius == 0.0)) return;
-  turn(shape.shadow);
+  turn(shape.points.data(), static_cast<int>(shape.points.size()));
   const int first = ceilOf(bottom_ - radius);
   clearRows(first, floorOf(top_ + radius), -kInfinity, kInfinity);
   if (is_disc) {

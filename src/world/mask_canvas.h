@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -67,7 +68,8 @@ class MaskPen {
   void drawCertain(const SweptShape& shape, MaskCanvas* canvas);
 
  private:
-  void turn(const Shadow& shadow);
+  void turn(const Eigen::Vector2d* points, int count);
+  void cover(double radius);
   double play(const SweptShape& shape) const;
   void clearRows(int first, int last, double low, double high);
   void addCorners(double radius);
@@ -81,8 +83,8 @@ class MaskPen {
   double cells_per_m_;
   // The shape at hand, in cells.
   int count_ = 0;
-  double x_[Shadow::kMaxPoints + 1];
-  double y_[Shadow::kMaxPoints + 1];
+  std::array<double, Shadow::kMaxPoints + 1> x_;
+  std::array<double, Shadow::kMaxPoints + 1> y_;
   double bottom_ = 0.0;
   double top_ = 0.0;
   int first_row_ = 0;

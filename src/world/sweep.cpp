@@ -35,24 +35,37 @@ struct Sweep::Data {
   std::optional<SweepHulls> hulls;
   std::atomic<std::size_t> bytes{0};
 
-  const SweepMask& make(std::size_t bin) {
+  std::shared_ptr<MaskMemory> memory;
+
+  ~Data() {
+    if (memory) memory->give(bytes);
+  }
+
+  void count(std::size_t added_bytes) {
+    bytes += added_bytes;
+    if (memory) memory->take(added_bytes);
+  }
+
+  const SweepMask* make(std::size_t bin) {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (!masks[bin]) {
-      if (covering.empty()) {
-        covering = coveringShapes(tracks, *classes);
-        covered = coveredShapes(tracks, *classes);
-        hulls.emplace(covering, resolution_m);
-      }
-      masks[bin] = makeSweepMask(covering, covered, classes->count(),
-                                 static_cast<double>(bin) * kBin_rad, kBin_rad / 2.0, resolution_m);
-      bytes += masks[bin]->bytes();
-      ready[bin].store(masks[bin].get(), std::memory_order_release);
+    if (masks[bin]) return masks[bin].get();
+    if (memory && memory->isFull()) return nullptr;
+    if (covering.empty()) {
+      covering = coveringShapes(tracks, *classes);
+      covered = coveredShapes(tracks, *classes);
+      hulls.emplace(covering, resolution_m);
+      count(bytesOf(covering) + bytesOf(covered) + hulls->bytes());
     }
-    return *masks[bin];
+    masks[bin] = makeSweepMask(covering, covered, classes->count(),
+                               static_cast<double>(bin) * kBin_rad, kBin_rad / 2.0, resolution_m);
+    count(masks[bin]->bytes());
+    ready[bin].store(masks[bin].get(), std::memory_order_release);
+    return masks[bin].get();
   }
 };
 
-Sweep::Sweep(std::vector<Track> tracks, std::shared_ptr<const HeightClasses> classes)
+Sweep::Sweep(std::vector<Track> tracks, std::shared_ptr<const HeightClasses> classes,
+             std::shared_ptr<MaskMemory> memory)
     : data_(std::make_unique<Data>()) {
   CASEPUSH_CHECK(!tracks.empty(), "no tracks");
   data_->resolution_m = tracks.front().body->resolution();
@@ -67,6 +80,7 @@ Sweep::Sweep(std::vector<Track> tracks, std::shared_ptr<const HeightClasses> cla
   }
   data_->tracks = std::move(tracks);
   data_->classes = std::move(classes);
+  data_->memory = std::move(memory);
 }
 
 Sweep::~Sweep() = default;
@@ -88,7 +102,7 @@ Sweep::Turned Sweep::mask(double yaw_rad) const {
   const int heading = static_cast<int>(yaw_rad * (1.0 / kBin_rad) + (0.5 + 4 * kHeadings));
   const auto bin = static_cast<unsigned>(heading) & (kMasks - 1);
   const SweepMask* ready = data_->ready[bin].load(std::memory_order_acquire);
-  return {ready != nullptr ? ready : &data_->make(bin), heading / kMasks % (kHeadings / kMasks)};
+  return {ready != nullptr ? ready : data_->make(bin), heading / kMasks % (kHeadings / kMasks)};
 }
 
 }  // namespace casepush

@@ -135,7 +135,7 @@ SweepChecker SweepChecker::withObstaclesOf(CollisionChecker checker) const {
   return result;
 }
 
-// False if the mask might reach beyond the images.
+// False if there is no mask, or it might reach beyond the images.
 bool SweepChecker::place(const Sweep& sweep, const Pose2& map_T_start, Place* place) const {
   const Images& images = *around_;
   const double x = (map_T_start.x() - images.origin_m.x()) * images.cells_per_m;
@@ -144,6 +144,7 @@ bool SweepChecker::place(const Sweep& sweep, const Pose2& map_T_start, Place* pl
   if (!(x >= 0.0 && y >= 0.0 && x < size.x && y < size.y)) return false;
   if (sweep.reach() > images.reach_m || !std::isfinite(map_T_start.yaw())) return false;
   const Sweep::Turned turned = sweep.mask(map_T_start.yaw());
+  if (turned.mask == nullptr) return false;
   place->mask = turned.mask;
   place->quarter = turned.quarters;
   place->first = images.occupied.turn({static_cast<int>(x), static_cast<int>(y)}, turned.quarters);

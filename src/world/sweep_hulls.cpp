@@ -7,18 +7,21 @@ namespace casepush {
 SweepHulls::SweepHulls(const std::vector<SweptShape>& covering, double resolution_m) {
   hulls_.reserve(covering.size());
   for (const SweptShape& shape : covering) {
-    const Shadow& shadow = shape.shadow;
-    const BoundingDisc disc = boundingDisc(shadow);
+    Shadow outline;
+    outline.count = static_cast<int>(shape.points.size());
+    outline.radius_m = shape.radius_m;
+    std::copy(shape.points.begin(), shape.points.end(), outline.points.begin());
+    const BoundingDisc disc = boundingDisc(outline);
     const auto first_edge = static_cast<std::uint32_t>(edges_.size());
-    for (int i = 0; i < shadow.count && shadow.count > 1; ++i) {
-      const Eigen::Vector2d& from = shadow.points[i];
-      const Eigen::Vector2d along = shadow.points[i + 1 == shadow.count ? 0 : i + 1] - from;
+    for (std::size_t i = 0; i < shape.points.size() && shape.points.size() > 1; ++i) {
+      const Eigen::Vector2d& from = shape.points[i];
+      const Eigen::Vector2d along = shape.points[(i + 1) % shape.points.size()] - from;
       const Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
       edges_.push_back({normal, normal.dot(from)});
     }
     hulls_.push_back({disc.centre_m, disc.radius_m, shape.classes, shape.track, shape.first_pose,
                       shape.last_pose, first_edge, static_cast<std::uint32_t>(edges_.size()),
-                      shadow.radius_m, shape.parts});
+                      shape.radius_m, shape.parts});
   }
   makeGrid(resolution_m);
 }
@@ -55,6 +58,11 @@ void SweepHulls::makeGrid(double resolution_m) {
     near_.insert(near_.end(), place.begin(), place.end());
     begins_.push_back(static_cast<std::uint32_t>(near_.size()));
   }
+}
+
+std::size_t SweepHulls::bytes() const {
+  return hulls_.size() * sizeof(Hull) + edges_.size() * sizeof(Edge) +
+         (begins_.size() + near_.size()) * sizeof(std::uint32_t);
 }
 
 bool SweepHulls::mayTouch(const Hull& hull, const Square& square) const {

@@ -54,6 +54,8 @@ class SweepHulls {
   /// False only if the hull's outline does not overlap the square.
   bool mayTouch(const Hull& hull, const Square& square) const;
 
+  std::size_t bytes() const;
+
  private:
   /// The polygon lies where normal . p <= offset_m.
   struct Edge {

@@ -88,7 +88,8 @@ bool isChord(const std::vector<Shadow>& shadows, std::size_t from, std::size_t t
 
 SweptShape shape(const Shadow& shadow, std::uint32_t classes) {
   SweptShape result;
-  result.shadow = shadow;
+  result.points.assign(shadow.points.begin(), shadow.points.begin() + shadow.count);
+  result.radius_m = shadow.radius_m;
   result.classes = classes;
   for (int i = 0; i < shadow.count; ++i) {
     result.reach_m = std::max(result.reach_m, shadow.points[i].norm() + shadow.radius_m);
@@ -128,6 +129,15 @@ void addPath(const std::vector<Shadow>& shadows, const Outline& outline, int tra
 }
 
 }  // namespace
+
+std::size_t bytesOf(const std::vector<SweptShape>& shapes) {
+  std::size_t bytes = shapes.capacity() * sizeof(SweptShape);
+  for (const SweptShape& swept : shapes) {
+    bytes +=
+        swept.points.capacity() * sizeof(Eigen::Vector2d) + swept.parts.capacity() * sizeof(int);
+  }
+  return bytes;
+}
 
 std::vector<SweptShape> coveringShapes(const std::vector<Track>& tracks,
                                        const HeightClasses& classes) {

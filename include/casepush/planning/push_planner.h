@@ -32,7 +32,10 @@ struct PushPlannerOptions {
   int improvement_extensions = 20000;  ///< Search for cheaper plans after the first one.
   double spacing_m = 0.1;  ///< Of tree nodes nearer than this only the cheaper one grows.
   RiskOptions risk;        ///< Chance constraints in the place of sigma points.
-  PushTimeOptions time;    ///< What the robot's way between pushes costs.
+  /// For masks that make collision checks fast; what finds no room is checked more slowly. A case
+  /// takes 0.2 MB. Those that were not used for longest make room.
+  int mask_memory_mb = 256;
+  PushTimeOptions time;  ///< What the robot's way between pushes costs.
   RobotPathOptions robot_path;
 
   /// Options of a planner: those of the paper for kExpRrtPaper, else the defaults.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -24,6 +26,21 @@ struct Track {
   Kind kind = Kind::kPath;
 };
 
+/// Memory that the masks of all sweeps that share it may take. Thread-safe.
+class MaskMemory {
+ public:
+  explicit MaskMemory(std::size_t limit_bytes) : limit_bytes_(limit_bytes) {}
+  std::size_t limit() const { return limit_bytes_; }
+  std::size_t used() const { return used_bytes_; }
+  bool isFull() const { return used_bytes_ >= limit_bytes_; }
+  void take(std::size_t bytes) { used_bytes_ += bytes; }
+  void give(std::size_t bytes) { used_bytes_ -= bytes; }
+
+ private:
+  std::size_t limit_bytes_;
+  std::atomic<std::size_t> used_bytes_{0};
+};
+
 /// Everything that some bodies cover during one motion, ready to be tested at any start pose.
 ///
 /// For each of 128 headings of the start there is a mask of the cells that may be covered, for each
@@ -33,8 +50,10 @@ struct Track {
 class Sweep {
  public:
   /// @param classes  Height classes of all bodies involved.
+  /// @param memory  No more masks are made while it is full; null: there is no limit.
   /// @pre There is a track, every track has a pose, and every body the same resolution.
-  Sweep(std::vector<Track> tracks, std::shared_ptr<const HeightClasses> classes);
+  Sweep(std::vector<Track> tracks, std::shared_ptr<const HeightClasses> classes,
+        std::shared_ptr<MaskMemory> memory = nullptr);
   ~Sweep();
   Sweep(const Sweep&) = delete;
   Sweep& operator=(const Sweep&) = delete;
@@ -52,14 +71,14 @@ class Sweep {
 
   /// Masks of the heading's bin, for the map turned clockwise by some quarters.
   struct Turned {
-    const SweepMask* mask;
+    const SweepMask* mask;  ///< Null if there is none and no memory for one.
     int quarters;
   };
   Turned mask(double yaw_rad) const;
-  /// The shapes from which masks are drawn. @pre mask() was called before.
+  /// The shapes from which masks are drawn. @pre mask() has given one before.
   const SweepHulls& hulls() const;
 
-  /// Memory that the masks made so far take.
+  /// Memory that the masks made so far take, with what they are made from.
   std::size_t bytes() const;
 
  private:
