@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   casepush::addPushCommand(app, run);
   casepush::addCasesCommand(app, run);
   casepush::addWorldCommand(app, run);
+  casepush::addMapCommand(app, run);
   casepush::addBenchCommand(app, run);
   casepush::addExperimentCommand(app, run);
   const bool json = wantsJson(argc, argv);

@@ -30,6 +30,7 @@ void addPlanCommand(CLI::App& app, Run& run);
 void addPushCommand(CLI::App& app, Run& run);
 void addCasesCommand(CLI::App& app, Run& run);
 void addWorldCommand(CLI::App& app, Run& run);
+void addMapCommand(CLI::App& app, Run& run);
 void addBenchCommand(CLI::App& app, Run& run);
 void addPlanBench(CLI::App& bench, Run& run);  ///< Of addBenchCommand().
 void addExperimentCommand(CLI::App& app, Run& run);

@@ -4,6 +4,7 @@
 
 #include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
+#include "casepush/world/map_file.h"
 #include "casepush/world/static_map.h"
 
 namespace casepush {
@@ -35,8 +36,10 @@ void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
       ->check(notEmpty());
   command.add_option("--world", arguments.world, "World by name or YAML file")
       ->capture_default_str();
-  command.add_option("--map", arguments.map,
-                     "OctoMap (.bt or .ot) that the planner uses; default: a survey of the world");
+  command.add_option(
+      "--map", arguments.map,
+      "Map that the planner uses: OctoMap (.bt, .ot), floor plan (.yaml of map_server) or "
+      "point cloud (.pcd, .xyz); default: a survey of the world");
   command.add_option("--case-base", arguments.case_base, "SQLite file with the object's cases")
       ->required()
       ->check(notEmpty());
@@ -115,7 +118,7 @@ Task prepareTask(const TaskArguments& arguments) {
     }
   }
   task.map = arguments.map.empty() ? surveyMap(world)
-                                   : std::make_shared<const Map>(Map::load(arguments.map));
+                                   : std::make_shared<const Map>(loadMap(arguments.map));
   return task;
 }
 

@@ -10,6 +10,7 @@
 
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
+#include "map_points.h"
 #include "map_stream.h"
 
 namespace casepush {
@@ -35,16 +36,6 @@ octomap::OcTree compact(const octomap::OcTree& tree) {
     copy.prune();
   }
   return copy;
-}
-
-octomap::point3d toOctomap(const Eigen::Vector3f& point) {
-  return {point.x(), point.y(), point.z()};
-}
-
-std::string text(const Eigen::Vector3f& point) {
-  std::ostringstream stream;
-  stream << "(" << point.x() << ", " << point.y() << ", " << point.z() << ")";
-  return stream.str();
 }
 
 /// Lowest corner and size of the leaf.
@@ -138,7 +129,7 @@ void Map::addSurvey(const std::vector<Eigen::Vector3f>& map_points) {
   for (const auto& point : map_points) {
     octomap::OcTreeKey key;
     if (!point.allFinite() || !tree_->coordToKeyChecked(toOctomap(point), key)) {
-      throw InputError("map survey", "point " + text(point) + " is not finite or too far away");
+      throw InputError("map survey", "point " + describe(point) + " is not finite or too far away");
     }
   }
   for (const auto& point : map_points) {
@@ -149,22 +140,7 @@ void Map::addSurvey(const std::vector<Eigen::Vector3f>& map_points) {
   tree_->prune();
 }
 
-void Map::addScan(const Eigen::Vector3f& map_origin, const std::vector<Eigen::Vector3f>& map_points,
-                  double max_range_m) {
-  octomap::OcTreeKey key;
-  if (!map_origin.allFinite() || !tree_->coordToKeyChecked(toOctomap(map_origin), key)) {
-    throw InputError("map scan", "origin " + text(map_origin) + " is not finite or too far away");
-  }
-  if (!(max_range_m > 0.0)) {
-    throw InputError("map scan",
-                     "range is " + std::to_string(max_range_m) + " m, must be positive");
-  }
-  octomap::Pointcloud cloud;
-  for (const auto& point : map_points) {
-    if (point.allFinite()) cloud.push_back(toOctomap(point));
-  }
-  tree_->insertPointCloud(cloud, toOctomap(map_origin), max_range_m, false, true);
-}
+Map Map::copy() const { return Map(std::make_unique<octomap::OcTree>(*tree_)); }
 
 double Map::resolution() const { return tree_->getResolution(); }
 

@@ -7,14 +7,11 @@
 #include "casepush/common/input_error.h"
 #include "casepush/world/map.h"
 #include "casepush/world/shadow.h"
+#include "cell_cover.h"
 #include "map_stream.h"
 
 namespace casepush {
 namespace {
-
-/// Boxes are shrunk by this at each side, lest a face that lies on a cell's border fills both
-/// cells.
-constexpr double kSkin_m = 0.001;
 
 constexpr double kMostCells = 4096.0;          // along each axis
 constexpr double kLargestCellIndex = 32767.0;  // of an octree
@@ -91,57 +88,15 @@ PlacedShape shrunk(const StaticBox& box) {
   return {Box{box.box.size_m - 2.0 * skin}, box.map_T_box, box.name};
 }
 
-int cellBelow(double coordinate_m, double resolution_m) {
-  return static_cast<int>(std::floor(coordinate_m / resolution_m));
-}
-
-/// Centres of all cells of one layer that the shadow reaches into.
-void addLayer(const Shadow& shadow, int layer, double resolution_m,
-              std::vector<Eigen::Vector3f>* points) {
-  Eigen::Vector2d low = shadow.points[0];
-  Eigen::Vector2d high = low;
-  for (int i = 1; i < shadow.count; ++i) {
-    low = low.cwiseMin(shadow.points[i]);
-    high = high.cwiseMax(shadow.points[i]);
-  }
-  for (int ix = cellBelow(low.x(), resolution_m); ix * resolution_m < high.x(); ++ix) {
-    for (int iy = cellBelow(low.y(), resolution_m); iy * resolution_m < high.y(); ++iy) {
-      const Eigen::Vector2d corner = Eigen::Vector2d(ix, iy) * resolution_m;
-      if (!closerThan(shadow, rectangle(corner, corner.array() + resolution_m), 0.0)) continue;
-      const Eigen::Vector3d centre =
-          Eigen::Vector3d(ix + 0.5, iy + 0.5, layer + 0.5) * resolution_m;
-      points->push_back(centre.cast<float>());
-    }
-  }
-}
-
 void addBox(const StaticBox& box, double resolution_m, std::vector<Eigen::Vector3f>* points) {
   const ConvexPart part(shrunk(box));
   const HeightRange heights = part.heights();
   const int first = std::max(0, cellBelow(heights.low_m, resolution_m));
   for (int layer = first; layer * resolution_m < heights.high_m; ++layer) {
     const Shadow shadow = part.shadow(layer * resolution_m, (layer + 1) * resolution_m);
-    if (!shadow.empty()) addLayer(shadow, layer, resolution_m, points);
-  }
-}
-
-/// The floor along the world's bounds, one layer below z = 0: no obstacle, but known.
-void addFloorRim(const WorldModel& world, double resolution_m,
-                 std::vector<Eigen::Vector3f>* points) {
-  const auto centre = [&](int ix, int iy) {
-    points->push_back((Eigen::Vector3d(ix + 0.5, iy + 0.5, -0.5) * resolution_m).cast<float>());
-  };
-  const int left = cellBelow(world.min_m.x() + kSkin_m, resolution_m);
-  const int right = cellBelow(world.max_m.x() - kSkin_m, resolution_m);
-  const int bottom = cellBelow(world.min_m.y() + kSkin_m, resolution_m);
-  const int top = cellBelow(world.max_m.y() - kSkin_m, resolution_m);
-  for (int ix = left; ix <= right; ++ix) {
-    centre(ix, bottom);
-    centre(ix, top);
-  }
-  for (int iy = bottom + 1; iy < top; ++iy) {
-    centre(left, iy);
-    centre(right, iy);
+    visitCoveredCells(shadow, resolution_m, [&](int ix, int iy) {
+      points->push_back(cellCentre(ix, iy, layer, resolution_m));
+    });
   }
 }
 
@@ -152,7 +107,7 @@ std::vector<Eigen::Vector3f> surveyPoints(const WorldModel& world, double resolu
   CASEPUSH_CHECK(!world.hasUnreadMap(), "world " << world.name << " lacks its static map");
   checkCost(world, resolution_m);
   std::vector<Eigen::Vector3f> points;
-  addFloorRim(world, resolution_m, &points);
+  addFloorRim(world.min_m, world.max_m, resolution_m, &points);
   for (const StaticBox& box : world.boxes) addBox(box, resolution_m, &points);
   return points;
 }

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,21 @@ class OcTree;
 }
 
 namespace casepush {
+
+/// One beam of a sensor, in the map.
+struct SensorRay {
+  Eigen::Vector3f map_end;  ///< Finite.
+  bool hit = true;          ///< Something stands at its end.
+  float blur_m = 0.0F;      ///< So much of it before its end tells nothing about free space.
+};
+
+/// Cells that became occupied or ceased to be.
+struct MapChange {
+  int cells = 0;
+  Eigen::AlignedBox3d where_m;  ///< Around all of them; empty if there are none.
+
+  void extend(const MapChange& other);
+};
 
 /// The static structure of a place: an OctoMap in the map frame, z = 0 on the floor.
 class Map {
@@ -43,6 +59,20 @@ class Map {
   /// (no return) are ignored. @throws InputError for a bad origin or range.
   void addScan(const Eigen::Vector3f& map_origin, const std::vector<Eigen::Vector3f>& map_points,
                double max_range_m);
+
+  /// The same for rays of which each says what it tells. A cell in which one of them ends is not
+  /// freed by the others. Evidence adds up as log-odds: free space takes three hits to become
+  /// occupied, an occupied cell at most nine rays through it to become free; in unknown space
+  /// the first ray decides.
+  /// @throws InputError for a bad origin.
+  /// Cost: proportional to the rays' length in cells.
+  MapChange addRays(const Eigen::Vector3f& map_origin, const std::vector<SensorRay>& rays);
+
+  /// Frees those occupied cells that reach into a box for which `is_wrong` holds.
+  MapChange clear(const Eigen::AlignedBox3d& map_box,
+                  const std::function<bool(const Eigen::AlignedBox3d& map_cell)>& is_wrong);
+
+  Map copy() const;
 
   double resolution() const;
   bool empty() const;
