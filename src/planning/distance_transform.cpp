@@ -12,15 +12,15 @@ constexpr float kFar = 1e6F;  // Cells; its square is still far from the end of 
 std::vector<float> columnDistances(const std::vector<std::uint8_t>& occupied, int width,
                                    int height) {
   std::vector<float> gap(occupied.size(), kFar);
+  // Row by row, as they lie in memory: from the centre above or below each occupied square.
+  std::vector<float> since(width);
   const auto sweep = [&](int first, int end, int step) {
-    for (int x = 0; x < width; ++x) {
-      int last = -1;
-      for (int y = first; y != end; y += step) {
-        const int cell = y * width + x;
-        if (occupied[cell]) last = y;
-        if (last < 0) continue;
-        const float distance = std::max(0.0F, std::abs(static_cast<float>(y - last)) - 0.5F);
-        gap[cell] = std::min(gap[cell], distance);
+    std::fill(since.begin(), since.end(), kFar);
+    for (int y = first; y != end; y += step) {
+      const std::size_t row = static_cast<std::size_t>(y) * width;
+      for (int x = 0; x < width; ++x) {
+        since[x] = occupied[row + x] != 0 ? 0.0F : std::min(kFar, since[x] + 1.0F);
+        gap[row + x] = std::min(gap[row + x], std::max(0.0F, since[x] - 0.5F));
       }
     }
   };

@@ -50,6 +50,15 @@ CollisionChecker::CollisionChecker(const Map& map, double floor_m)
   setObstacles({});
 }
 
+CollisionChecker CollisionChecker::updated(const Map& map, const Area& changed) const {
+  CASEPUSH_CHECK(map.resolution() == data_->map->columns.resolution_m,
+                 map.resolution() << " m, before " << data_->map->columns.resolution_m << " m");
+  CollisionChecker result(*this);
+  result.data_->map = std::make_shared<MapColumns>(map, *data_->map, changed);
+  result.setObstacles(obstacles());
+  return result;
+}
+
 CollisionChecker::~CollisionChecker() = default;
 CollisionChecker::CollisionChecker(CollisionChecker&&) noexcept = default;
 CollisionChecker& CollisionChecker::operator=(CollisionChecker&&) noexcept = default;

@@ -40,6 +40,15 @@ bool LayeredBitmap::test(int layer, int x, int y) const {
   return (strip(layer, column / kBits)[y + border_] >> (column % kBits) & 1) != 0;
 }
 
+std::uint64_t LayeredBitmap::fingerprint() const {
+  std::uint64_t hash = words_.size();
+  for (const std::uint64_t word : words_) {
+    hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
 std::uint64_t LayeredBitmap::word(int layer, int x, int y) const {
   const Window at = window(x, y);
   const std::uint64_t* low = at.words + layer * at.layer;

@@ -40,7 +40,8 @@ class LayeredBitmap {
             static_cast<std::ptrdiff_t>(strips_) * rows_, static_cast<unsigned>(column) % kBits};
   }
 
-  std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
+  /// Differs if any cell does, but for chance.
+  std::uint64_t fingerprint() const;
 
  private:
   const std::uint64_t* strip(int layer, int strip) const {

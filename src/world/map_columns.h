@@ -6,6 +6,7 @@
 
 #include "casepush/world/collision_checker.h"
 #include "casepush/world/map.h"
+#include "cell_box.h"
 
 namespace casepush {
 
@@ -13,6 +14,12 @@ namespace casepush {
 /// vertical runs for the exact one.
 struct MapColumns {
   MapColumns(const Map& map, double floor_m);
+
+  /// Of a map that differs from the one of `before` only within an area: the same as made anew.
+  MapColumns(const Map& map, const MapColumns& before, const CollisionChecker::Area& changed);
+
+  /// Cells that reach into an area, as far as there are any.
+  CellBox cellsIn(const CollisionChecker::Area& area) const;
 
   /// Cells low, ..., high - 1 above z = 0 are occupied.
   struct Run {
@@ -25,10 +32,23 @@ struct MapColumns {
   std::vector<Run> runs;
   Eigen::Vector2d min_m{0.0, 0.0};  ///< Known extent; both equal for an empty map.
   Eigen::Vector2d max_m{0.0, 0.0};
+  double floor_m = 0.0;
 
  private:
+  /// A run and the column that it is in.
+  struct PlacedRun {
+    std::uint32_t column;
+    Run run;
+  };
+  using PlacedRuns = std::vector<PlacedRun>;
+
   void setExtent(const Map& map);
-  void fill(const Map& map, double floor_m);
+  PlacedRuns occupiedIn(const Map& map, const CellBox& box) const;
+  void fill(const Map& map, const CellBox& box, const MapColumns* before);
+  void addColumn(std::uint32_t column, PlacedRuns::const_iterator first,
+                 PlacedRuns::const_iterator end);
+  void copyRow(int row, const MapColumns& from, int old_row);
+  void copyColumn(std::uint32_t column, const MapColumns& from, int x, int y);
 };
 
 /// Visits every cell of the columns that a placed solid reaches into, with the slices it covers

@@ -4,17 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "cell_box.h"
 #include "swept_shapes.h"
 
 namespace casepush {
-
-/// Bounds in cells, all inclusive.
-struct CellBox {
-  int x0 = 0;
-  int x1 = -1;
-  int y0 = 0;
-  int y1 = -1;
-};
 
 /// One bit image for each height class while a mask is being drawn, relative to the start's cell.
 class MaskCanvas {

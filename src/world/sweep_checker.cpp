@@ -50,6 +50,18 @@ struct SweepChecker::Images {
   double cells_per_m = 0.0;
   double reach_m = 0.0;  ///< Sweeps that reach farther might leave the border.
 
+  void clear(const CellBox& box) {
+    for (TurnedBitmaps* image : {&occupied, &filled}) {
+      for (int y = box.y0; y <= box.y1; ++y) {
+        for (int x = box.x0; x <= box.x1; ++x) {
+          for (int layer = 0; layer < image->image(0).layers(); ++layer) {
+            image->set(layer, {x, y}, false);
+          }
+        }
+      }
+    }
+  }
+
   void add(const HeightClasses& classes, CellIndex cell, std::uint64_t slices) {
     for (int c = 0; c < classes.count(); ++c) {
       if ((slices & classes.slices(c)) == 0) continue;
@@ -102,9 +114,16 @@ SweepChecker::SweepChecker(CollisionChecker checker, std::shared_ptr<const Heigh
   images->reach_m = (border - kBits - 2.0) * map.columns.resolution_m;
   images->occupied = TurnedBitmaps(classes_->count() + 1, width, height, border);
   images->filled = TurnedBitmaps(classes_->count(), width, height, border);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t column = static_cast<std::size_t>(y) * width + x;
+  draw(map, {0, width - 1, 0, height - 1}, images.get());
+  map_ = std::move(images);
+  *this = withObstaclesOf(checker_);
+}
+
+// Draws cells of the map anew.
+void SweepChecker::draw(const MapColumns& map, const CellBox& box, Images* images) const {
+  for (int y = box.y0; y <= box.y1; ++y) {
+    for (int x = box.x0; x <= box.x1; ++x) {
+      const std::size_t column = static_cast<std::size_t>(y) * map.columns.width + x;
       const std::uint64_t slices = map.columns.bits[column];
       if (slices == 0) continue;
       images->add(*classes_, {x, y}, slices);
@@ -114,8 +133,25 @@ SweepChecker::SweepChecker(CollisionChecker checker, std::shared_ptr<const Heigh
       }
     }
   }
-  map_ = std::move(images);
-  *this = withObstaclesOf(checker_);
+}
+
+SweepChecker SweepChecker::updated(CollisionChecker checker,
+                                   const CollisionChecker::Area& changed) const {
+  const MapColumns& before = *checker_.data_->map;
+  const MapColumns& now = *checker.data_->map;
+  if (now.min_m != before.min_m || now.max_m != before.max_m) {
+    // Half a cell less than the whole number of cells that it was rounded up to.
+    const double reach_m = map_->reach_m - now.columns.resolution_m / 2.0;
+    return SweepChecker(std::move(checker), classes_, reach_m);
+  }
+  SweepChecker result(*this);
+  auto images = std::make_shared<Images>(*map_);
+  const CellBox box = now.cellsIn(changed);
+  images->clear(box);
+  draw(now, box, images.get());
+  result.map_ = std::move(images);
+  result.checker_ = CollisionChecker(checker);
+  return result.withObstaclesOf(std::move(checker));
 }
 
 SweepChecker SweepChecker::withObstaclesOf(CollisionChecker checker) const {
@@ -151,6 +187,11 @@ bool SweepChecker::place(const Sweep& sweep, const Pose2& map_T_start, Place* pl
   place->first.x += place->mask->firstColumn();
   place->first.y += place->mask->firstRow();
   return true;
+}
+
+std::uint64_t SweepChecker::fingerprint() const {
+  return map_->occupied.fingerprint() * 3 + map_->filled.fingerprint() * 5 +
+         around_->occupied.fingerprint() * 7;
 }
 
 bool SweepChecker::mayCollide(const Sweep& sweep, const Pose2& map_T_start) const {

@@ -1,16 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
+#include "cell_box.h"
 #include "layered_bitmap.h"
 
 namespace casepush {
-
-/// A cell, or an image's size in cells.
-struct CellIndex {
-  int x = 0;
-  int y = 0;
-};
 
 /// An image, and the same turned clockwise by one, two and three quarters: a mask for a heading
 /// serves the headings a quarter turn apart as well, on another image.
@@ -62,6 +58,13 @@ class TurnedBitmaps {
       default:
         return cell;
     }
+  }
+
+  /// Differs if any cell of any image does, but for chance.
+  std::uint64_t fingerprint() const {
+    std::uint64_t hash = 0;
+    for (const LayeredBitmap& image : images_) hash = hash * 31 + image.fingerprint();
+    return hash;
   }
 
  private:

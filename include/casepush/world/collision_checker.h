@@ -49,6 +49,18 @@ class CollisionChecker {
   /// Cells whose top is not above `floor_m` are the floor and no obstacle.
   /// @throws InputError if the map extends over more than 4096 x 4096 cells.
   explicit CollisionChecker(const Map& map, double floor_m = 0.05);
+
+  /// A rectangle of the map.
+  struct Area {
+    Eigen::Vector2d min_m{0.0, 0.0};
+    Eigen::Vector2d max_m{0.0, 0.0};
+  };
+
+  /// The same obstacles on a newer map, of the same resolution, that differs only within an area;
+  /// its extent may be another. As if made anew, in a fraction of the time.
+  /// @throws InputError as the constructor.
+  CollisionChecker updated(const Map& map, const Area& changed) const;
+
   ~CollisionChecker();
   CollisionChecker(const CollisionChecker&);
   CollisionChecker(CollisionChecker&&) noexcept;

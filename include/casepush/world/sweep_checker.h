@@ -9,6 +9,9 @@
 
 namespace casepush {
 
+struct CellBox;
+struct MapColumns;
+
 /// Tests whole motions at once against a map and obstacles.
 ///
 /// Three stages: the mask of what a sweep may cover accepts it where nothing lies; the mask of what
@@ -34,6 +37,12 @@ class SweepChecker {
   /// @pre `checker` is a copy of the one that this was made from, but for its obstacles.
   SweepChecker withObstaclesOf(CollisionChecker checker) const;
 
+  /// For `checker.updated(map, changed)`, as if made anew, faster if the map's extent is the same.
+  SweepChecker updated(CollisionChecker checker, const CollisionChecker::Area& changed) const;
+
+  /// Bits of all images, to compare two checkers.
+  std::uint64_t fingerprint() const;
+
   /// False only if the motion is free.
   bool mayCollide(const Sweep& sweep, const Pose2& map_T_start) const;
 
@@ -51,6 +60,7 @@ class SweepChecker {
   struct Place;
   struct StartFrame;
 
+  void draw(const MapColumns& map, const CellBox& box, Images* images) const;
   bool place(const Sweep& sweep, const Pose2& map_T_start, Place* place) const;
   std::uint64_t hitsOf(const Place& place, int tile, int row) const;
   bool touchesHitCells(const Sweep& sweep, const Pose2& map_T_start, const Place& place) const;
