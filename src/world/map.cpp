@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
+#include "map_bounds.h"
 #include "map_points.h"
 #include "map_stream.h"
 
@@ -159,21 +159,12 @@ std::vector<Map::Voxel> Map::occupied() const {
 
 Eigen::Vector3d Map::min() const {
   CASEPUSH_CHECK(!empty(), "an empty map has no bounds");
-  Eigen::Vector3d result = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
-    result = result.cwiseMin(leafCorner(leaf, resolution()).first);
-  }
-  return result;
+  return knownCells(*tree_).low.cast<double>() * resolution();
 }
 
 Eigen::Vector3d Map::max() const {
   CASEPUSH_CHECK(!empty(), "an empty map has no bounds");
-  Eigen::Vector3d result = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
-  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
-    const auto [corner, size] = leafCorner(leaf, resolution());
-    result = result.cwiseMax((corner.array() + size).matrix());
-  }
-  return result;
+  return knownCells(*tree_).high.cast<double>() * resolution();
 }
 
 }  // namespace casepush

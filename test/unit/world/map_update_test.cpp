@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <octomap/OcTree.h>
 
 #include <memory>
 
@@ -77,6 +78,19 @@ TEST_F(MapUpdateTest, isTheSameAsAMapMadeAnew) {
     }
   }
   EXPECT_GT(changed, 20);
+}
+
+TEST_F(MapUpdateTest, boundsAreThoseOfAllKnownCells) {
+  for (int i = 0; i < 10; ++i) change(-1.0, 7.5);
+  Eigen::Vector3d low = map_.max();
+  Eigen::Vector3d high = map_.min();
+  for (auto leaf = map_.tree().begin_leafs(); leaf != map_.tree().end_leafs(); ++leaf) {
+    const Eigen::Vector3d centre(leaf.getX(), leaf.getY(), leaf.getZ());
+    low = low.cwiseMin((centre.array() - leaf.getSize() / 2.0).matrix());
+    high = high.cwiseMax((centre.array() + leaf.getSize() / 2.0).matrix());
+  }
+  EXPECT_LT((map_.min() - low).norm(), 1e-9);
+  EXPECT_LT((map_.max() - high).norm(), 1e-9);
 }
 
 TEST_F(MapUpdateTest, leavesTheOldCheckerAsItWas) {
