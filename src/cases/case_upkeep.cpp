@@ -118,6 +118,14 @@ double contextDistance(const PushContext& a, const PushContext& b) {
          (other_floor ? kOtherFloorKg : 0.0);
 }
 
+std::vector<Case> learntIn(std::vector<Case> cases, const PushContext& context) {
+  const auto is_other = [&](const Case& push_case) {
+    return contextDistance(push_case.context, context) > 0.0;
+  };
+  cases.erase(std::remove_if(cases.begin(), cases.end(), is_other), cases.end());
+  return cases;
+}
+
 std::vector<Case> inContext(const std::vector<Case>& cases, const PushContext& context) {
   std::map<std::int64_t, const Case*> by_id;
   for (const Case& push_case : cases) {

@@ -12,17 +12,6 @@ namespace {
 
 constexpr int kMaxJobs = 256;
 
-// Those that were learnt with the same load.
-std::vector<Case> casesOf(const CaseBase& case_base, const std::string& object,
-                          const PushContext& context) {
-  std::vector<Case> cases = case_base.cases(object);
-  const auto is_other = [&](const Case& push_case) {
-    return contextDistance(push_case.context, context) > 0.0;
-  };
-  cases.erase(std::remove_if(cases.begin(), cases.end(), is_other), cases.end());
-  return cases;
-}
-
 PushContext contextOf(const LearningOptions& options) {
   PushContext context;
   context.load_kg = options.load ? options.load->mass_kg : 0.0;
@@ -90,7 +79,7 @@ LearningResult learnByPlacing(const Catalog& catalog, const std::string& object,
                               const std::function<bool(const LearningProgress&)>& progress) {
   PushPool pool(catalog, object, robot, options);
   Exploration exploration(pool.object(), pool.robot(), options.exploration);
-  exploration.resume(casesOf(case_base, pool.object().name, contextOf(options)));
+  exploration.resume(learntIn(case_base.cases(pool.object().name), contextOf(options)));
   Learning learning(exploration, case_base, options, progress);
   while (const auto trial = exploration.next()) {
     if (!learning.report(*trial)) {
@@ -115,7 +104,7 @@ LearningResult learnByDriving(const Catalog& catalog, const WorldModel& room, Ca
   const PushGround ground(CollisionChecker(*map), object, robot,
                           room.objects.front().map_T_object.position());
   Exploration exploration(object, robot, options.exploration);
-  exploration.resume(casesOf(case_base, object.name, contextOf(options)));
+  exploration.resume(learntIn(case_base.cases(object.name), contextOf(options)));
   Learning learning(exploration, case_base, options, progress);
   Pose2 map_T_object = room.objects.front().map_T_object;
   while (const auto trial = exploration.next(ground, map_T_object)) {

@@ -136,7 +136,7 @@ void LearnerNode::learn(const LearnObjectGoal& goal, Run& run) {
       std::make_unique<Exploration>(run.instance->model, parameters_.furnishing.robot, run.options);
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
-    run.exploration->resume(base_.cases(run.instance->model.name));
+    run.exploration->resume(learntIn(base_.cases(run.instance->model.name), parameters_.context));
     run.done_before = run.exploration->pushesDone();
   }
   if (!begin(run)) {

@@ -46,6 +46,10 @@ double contextDistance(const PushContext& a, const PushContext& b);
 /// equals the oldest. Ascending by id.
 std::vector<Case> inContext(const std::vector<Case>& cases, const PushContext& context);
 
+/// Those that were learnt in a context: what learning in it resumes from. Unlike inContext(), no
+/// case of another load stands in for one that is missing.
+std::vector<Case> learntIn(std::vector<Case> cases, const PushContext& context);
+
 /// What CaseBase::merge did, in cases.
 struct MergeResult {
   int added = 0;         ///< Known to the other base only.

@@ -133,6 +133,23 @@ TEST_F(CaseBaseUpkeep, theNearestContextOfEachFamilyIsUsed) {
   EXPECT_EQ(used({}), (Ids{b, a10})) << "a family may lose its first member";
 }
 
+TEST_F(CaseBaseUpkeep, learningGoesOnWithCasesOfItsOwnContextOnly) {
+  const std::int64_t a = base_.add(recordedCase(5));
+  const std::int64_t a10 = base_.copy(a, {10.0, ""});
+  const auto learnt = [&](const PushContext& context) {
+    std::vector<std::int64_t> ids;
+    for (const Case& push_case : learntIn(base_.cases(), context)) {
+      ids.push_back(push_case.id);
+    }
+    return ids;
+  };
+  using Ids = std::vector<std::int64_t>;
+  EXPECT_EQ(learnt({}), Ids{a});
+  EXPECT_EQ(learnt({0.0, "vinyl"}), Ids{a}) << "an unknown floor counts as any";
+  EXPECT_EQ(learnt({10.0, ""}), Ids{a10});
+  EXPECT_EQ(learnt({9.0, ""}), Ids{});
+}
+
 TEST_F(CaseBaseUpkeep, pruneRemovesWhatTheRuleNames) {
   const auto store = [&](std::uint64_t seed, const Pose2& outcome, double sigma_m, int count) {
     Case push_case = recordedCase(seed);
