@@ -1,5 +1,6 @@
 #include "casepush/execution/execute_push.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "casepush/common/check.h"
 #include "casepush/common/violations.h"
 #include "push_recorder.h"
+#include "tube_watch.h"
 
 namespace casepush {
 namespace {
@@ -35,11 +37,23 @@ void ExecutePushOptions::validate() const {
   violations.require("stale_robot_s", stale_robot_s, 0.01, 2.0);
   violations.require("lost_object_s", lost_object_s, 0.1, 60.0);
   violations.require("alpha", alpha, 1e-9, 0.5);
+  violations.require("tube.alpha", tube.alpha, 1e-12, 0.5);
+  violations.require("tube.least_m", tube.least_m, 0.0, 10.0);
+  violations.require("tube.least_rad", tube.least_rad, 0.0, 3.2);
+  violations.require("tube.slack_s", tube.slack_s, 0.0, 10.0);
+  violations.require("tube.hold_s", tube.hold_s, 0.0, 10.0);
+  violations.require("blocked_m", blocked_m, 0.02, 10.0);
+  violations.require("blocked_s", blocked_s, 0.0, 10.0);
   violations.throwIfAny("push options");
 }
 
+const char* toString(OutcomeTest test) {
+  return test == OutcomeTest::kHotelling ? "hotelling" : "plug_in";
+}
+
 bool isObservation(const PushReport& report) {
-  return report.outcome == PushOutcome::kDone || report.outcome == PushOutcome::kNotMoved;
+  return report.outcome == PushOutcome::kDone || report.outcome == PushOutcome::kNotMoved ||
+         report.outcome == PushOutcome::kBrokenOff;
 }
 
 struct ExecutePush::Data {
@@ -54,7 +68,12 @@ struct ExecutePush::Data {
         approach(object_id, trajectory, robot.limits, std::move(approach_planner), options),
         limiter(robot.limits),
         robot_watch(options.stale_robot_s),
-        rest(options) {}
+        rest(options),
+        held(options.blocked_m, options.blocked_s) {
+    if (push_case && options.tube.on) {
+      tube.emplace(*push_case, options.tube);
+    }
+  }
 
   std::string object_id;
   std::optional<Case> push_case;
@@ -66,7 +85,9 @@ struct ExecutePush::Data {
   CommandLimiter limiter;
   RobotWatch robot_watch;
   RestWatch rest;
+  HoldWatch held;
   TickClock clock;
+  std::optional<TubeWatch> tube;
   std::optional<PushRecorder> recorder;
 
   Phase phase = Phase::kApproach;
@@ -75,6 +96,7 @@ struct ExecutePush::Data {
   double now_s = 0.0;
   double push_time_s = 0.0;           ///< Since the push began, without interruptions.
   double push_end_s = 0.0;            ///< In push time: when the robot stopped.
+  bool broken_off = false;
   std::optional<ObjectState> object;  ///< Last usable state.
   PushReport draft;
   std::optional<PushReport> report;
@@ -84,6 +106,8 @@ struct ExecutePush::Data {
   Twist2 approachTick(const Observation& observation, double dt_s);
   void beginPush(const Observation& observation);
   Twist2 pushTick(const Observation& observation);
+  Twist2 followPush(const Observation& observation);
+  bool hasLeftTube();
   Twist2 restTick(const Observation& observation);
   void conclude();
   void finish(PushOutcome outcome, const std::string& explanation);
@@ -114,7 +138,16 @@ void ExecutePush::Data::conclude() {
   if (push_case) {
     draft.map_expected = transform(draft.map_T_start, push_case->start_outcome);
     const OutcomeStatistics past{push_case->start_outcome, push_case->effective_count};
-    draft.test = testPrediction(past, start_T_end, options.alpha);
+    draft.test = options.test == OutcomeTest::kHotelling
+                     ? testPrediction(past, start_T_end, options.alpha)
+                     : testPlugIn(past, start_T_end, options.alpha);
+  }
+  if (broken_off) {
+    draft.test.rejected = true;
+    draft.test.p_value = std::min(draft.test.p_value, tube->pValue());
+    finish(PushOutcome::kBrokenOff,
+           "broken off: " + object_id + " was " + tube->describe());
+    return;
   }
   if (start_T_end.position().norm() < kNotMovedM && std::abs(start_T_end.yaw()) < kNotMovedRad) {
     finish(PushOutcome::kNotMoved, object_id + " did not move");
@@ -150,18 +183,29 @@ void ExecutePush::Data::beginPush(const Observation& observation) {
   recorder.emplace(options.sample_period_s, draft.map_T_start);
 }
 
+Twist2 ExecutePush::Data::followPush(const Observation& observation) {
+  const Reference reference{draft.map_T_start * trajectory.poseAt(push_time_s),
+                            trajectory.actionAt(push_time_s)};
+  if (held.isHeld(push_time_s, distance(observation.map_T_robot, reference.map_T_reference))) {
+    finish(PushOutcome::kBlocked, "something holds the robot while it pushes " + object_id);
+    return Twist2{};
+  }
+  return track(observation.map_T_robot, reference, {options.position_gain, options.yaw_gain});
+}
+
+bool ExecutePush::Data::hasLeftTube() {
+  return tube && tube->hasLeft(push_time_s, object->stamp_s,
+                               draft.map_T_start.inverse() * object->map_T_object);
+}
+
 Twist2 ExecutePush::Data::pushTick(const Observation& observation) {
   if (now_s - object->stamp_s > options.lost_object_s) {
     finish(PushOutcome::kObjectLost, object_id + " was lost from sight during the push");
     return Twist2{};
   }
-  const bool is_over = push_time_s >= trajectory.durationS() - 1e-6;
-  Twist2 wanted;
-  if (!is_over) {
-    const Reference reference{draft.map_T_start * trajectory.poseAt(push_time_s),
-                              trajectory.actionAt(push_time_s)};
-    wanted = track(observation.map_T_robot, reference, {options.position_gain, options.yaw_gain});
-  }
+  broken_off = hasLeftTube();
+  const bool is_over = broken_off || push_time_s >= trajectory.durationS() - 1e-6;
+  const Twist2 wanted = is_over ? Twist2{} : followPush(observation);
   recorder->add(push_time_s, observation.map_T_robot, object->map_T_object, wanted);
   if (is_over) {
     recorder->endPush();

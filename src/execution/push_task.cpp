@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "push_task_data.h"
 #include "push_task_rules.h"
-#include "watches.h"
 
 namespace casepush {
 namespace {
@@ -21,58 +20,16 @@ double yawError(const Pose2& a, const Pose2& b) { return std::abs(yawDifference(
 
 }  // namespace
 
-struct PushTask::Data {
-  enum class Stage { kLook, kPlan, kPush, kDone };
-
-  Data(PushTaskGoal push_goal, RobotModel robot_model, PushTaskServices outside,
-       const PushTaskOptions& task_options)
-      : goal(std::move(push_goal)),
-        robot(std::move(robot_model)),
-        services(completeServices(std::move(outside), goal.object_id)),
-        options(task_options),
-        robot_watch(options.push.stale_robot_s),
-        rest(options.push) {}
-
-  PushTaskGoal goal;
-  RobotModel robot;
-  PushTaskServices services;
-  PushTaskOptions options;
-  RobotWatch robot_watch;
-  RestWatch rest;
-  TickClock clock;
-
-  Stage stage = Stage::kLook;
-  PushTaskStatus status = PushTaskStatus::kRunning;
-  PushTaskProgress progress;
-  std::string text = "looking for the object";
-  bool cancelled = false;
-  std::optional<double> began_s;
-  double stage_began_s = 0.0;
-  std::optional<PushPlan> plan;  ///< Its first push is the next one.
-  PlanRequest request;
-  std::optional<ExecutePush> push;
-  int failed_plans = 0;
-  int failed_approaches = 0;
-  int plans_without_progress = 0;
-  double shortest_plan_m = std::numeric_limits<double>::infinity();
-
-  Tick run(const Observation& observation);
-  Tick step(const Observation& observation);
-  Tick look(const Observation& observation);
-  Tick awaitPlan(const Observation& observation);
-  Tick pushOn(const Observation& observation);
-  void enter(Stage next, const char* phase, const std::string& what, double now_s);
-  void end(PushTaskStatus final_status, const std::string& why);
-  void requestPlan(const Observation& observation, const ObjectState& object);
-  void acceptPlan(const PlanResult& result, const Observation& observation);
-  void rejectPlan(const PlanResult& result, const Observation& observation);
-  bool isLimitReached();
-  void startPush(const Observation& observation);
-  void concludePush(const PushReport& report, const Observation& observation);
-  void judgeOutcome(const PushReport& report, const Observation& observation);
-  void replan(const std::string& why, const Observation& observation);
-  void measure(const Observation& observation);
-};
+PushTask::Data::Data(PushTaskGoal push_goal, RobotModel robot_model, PushTaskServices outside,
+                     const PushTaskOptions& task_options)
+    : goal(std::move(push_goal)),
+      robot(std::move(robot_model)),
+      services(completeServices(std::move(outside), goal.object_id)),
+      options(task_options),
+      robot_watch(options.push.stale_robot_s),
+      rest(options.push) {
+  options.push.tube.on = options.push.tube.on || options.break_off;
+}
 
 void PushTask::Data::enter(Stage next, const char* phase, const std::string& what, double now_s) {
   stage = next;
@@ -143,7 +100,8 @@ void PushTask::Data::acceptPlan(const PlanResult& result, const Observation& obs
   const Pose2& planned = request.object.map_T_object;
   if (object != nullptr && (distance(object->map_T_object, planned) > kMovedM ||
                             yawError(object->map_T_object, planned) > kMovedRad)) {
-    replan(goal.object_id + " was moved during planning", observation);
+    progress.pushes_per_plan.push_back(0);
+    replan(ReplanCause::kObjectMoved, goal.object_id + " was moved during planning", observation);
     return;
   }
   plan = result.plan;
@@ -153,6 +111,7 @@ void PushTask::Data::acceptPlan(const PlanResult& result, const Observation& obs
   }
   plans_without_progress = length_m < shortest_plan_m - kProgressM ? 0 : plans_without_progress + 1;
   shortest_plan_m = std::min(shortest_plan_m, length_m);
+  progress.pushes_per_plan.push_back(0);
   progress.push_index = 0;
   progress.push_count = static_cast<int>(plan->pushes.size());
   startPush(observation);
@@ -181,131 +140,6 @@ void PushTask::Data::rejectPlan(const PlanResult& result, const Observation& obs
   } else {
     rest.reset();
     enter(Stage::kLook, "look", "planning failed, trying again", observation.stamp_s);
-  }
-}
-
-void PushTask::Data::startPush(const Observation& observation) {
-  const PlannedPush& planned = plan->pushes.front();
-  const std::vector<Case> cases = services.cases();
-  const auto found = std::find_if(cases.begin(), cases.end(), [&planned](const Case& candidate) {
-    return candidate.id == planned.case_id;
-  });
-  if (found == cases.end()) {
-    PlanResult unknown;
-    unknown.status = PlanStatus::kUnreachable;
-    unknown.explanation =
-        "the plan uses case " + std::to_string(planned.case_id) + ", which is not known here";
-    rejectPlan(unknown, observation);
-    return;
-  }
-  if (isLimitReached()) {
-    return;
-  }
-  failed_plans = 0;
-  ++progress.push_index;
-  push.emplace(goal.object_id, *found, robot, services.approach, options.push);
-  enter(Stage::kPush, "approach", "approaching", observation.stamp_s);
-}
-
-bool PushTask::Data::isLimitReached() {
-  if (progress.pushes >= options.max_pushes) {
-    end(PushTaskStatus::kNoProgress,
-        "not at the goal after " + std::to_string(progress.pushes) + " pushes: still " +
-            errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad));
-  } else if (progress.replans > options.max_replans) {
-    end(PushTaskStatus::kNoProgress,
-        "not at the goal after " + std::to_string(options.max_replans) + " new plans: still " +
-            errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad));
-  } else if (plans_without_progress >= options.max_plans_without_progress) {
-    end(PushTaskStatus::kNoProgress,
-        std::to_string(plans_without_progress) + " plans in a row brought " + goal.object_id +
-            " no nearer: still " +
-            errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad));
-  }
-  return stage == Stage::kDone;
-}
-
-Tick PushTask::Data::pushOn(const Observation& observation) {
-  static const char* const kPhases[] = {"approach", "dock", "push", "rest", "rest"};
-  const Tick tick = push->tick(observation);
-  progress.phase = kPhases[static_cast<int>(push->phase())];
-  text = push->describe();
-  if (!push->report()) {
-    return tick;
-  }
-  const PushReport report = *push->report();
-  push.reset();
-  if (isObservation(report)) {
-    ++progress.pushes;
-  }
-  if (report.test.rejected) {
-    ++progress.rejected_predictions;
-  }
-  if (services.on_report) {
-    services.on_report(report);
-  }
-  concludePush(report, observation);
-  return {};
-}
-
-void PushTask::Data::concludePush(const PushReport& report, const Observation& observation) {
-  switch (report.outcome) {
-    case PushOutcome::kDone:
-    case PushOutcome::kNotMoved:
-      failed_approaches = 0;
-      judgeOutcome(report, observation);
-      return;
-    case PushOutcome::kApproachFailed:
-      if (++failed_approaches >= options.max_failed_plans) {
-        end(PushTaskStatus::kNoProgress,
-            "the robot can not get to the next push: " + report.explanation);
-      } else {
-        replan(report.explanation, observation);
-      }
-      return;
-    case PushOutcome::kRobotLost:
-      end(PushTaskStatus::kRobotLost, report.explanation);
-      return;
-    case PushOutcome::kObjectLost:
-    case PushOutcome::kTimeout:
-    case PushOutcome::kCancelled:
-      replan(report.explanation, observation);
-      return;
-  }
-}
-
-void PushTask::Data::judgeOutcome(const PushReport& report, const Observation& observation) {
-  const ObjectState* object = usableObject(observation, goal.object_id);
-  if (object == nullptr) {
-    replan(goal.object_id + " is not in sight", observation);
-    return;
-  }
-  if (isSafelyAtGoal(goal, *object, options)) {
-    end(PushTaskStatus::kSucceeded, goal.object_id + " is at the goal");
-    return;
-  }
-  plan->pushes.erase(plan->pushes.begin());
-  if (report.test.rejected) {
-    replan(report.explanation, observation);
-  } else if (plan->pushes.empty()) {
-    replan("the plan ended beside the goal", observation);
-  } else {
-    const PushPlanner::Continuation rest_of_plan = services.continue_plan(
-        *plan, object->map_T_object, services.cases(), otherObjects(observation, goal.object_id));
-    if (!rest_of_plan.valid) {
-      replan(rest_of_plan.explanation, observation);
-    } else {
-      plan = rest_of_plan.plan;
-      startPush(observation);
-    }
-  }
-}
-
-void PushTask::Data::replan(const std::string& why, const Observation& observation) {
-  ++progress.replans;
-  if (!isLimitReached()) {
-    rest.reset();
-    enter(Stage::kLook, "look", "planning anew: " + why, observation.stamp_s);
   }
 }
 

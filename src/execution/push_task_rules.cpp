@@ -42,15 +42,22 @@ const char* toString(PushTaskStatus status) {
   return "unknown";
 }
 
+const char* toString(RestRule rule) {
+  return rule == RestRule::kMeanAtGoal ? "mean_at_goal" : "likely_end";
+}
+
 void PushTaskOptions::validate() const {
   push.validate();
   Violations violations;
   violations.require("max_replans", max_replans, 0, 100000);
   violations.require("max_pushes", max_pushes, 1, 100000);
   violations.require("max_failed_plans", max_failed_plans, 1, 1000);
+  violations.require("max_idle_pushes", max_idle_pushes, 1, 1000);
   violations.require("max_plans_without_progress", max_plans_without_progress, 1, 100000);
   violations.require("plan_deadline_s", plan_deadline_s, 0.01, 3600.0);
   violations.require("look_timeout_s", look_timeout_s, 0.1, 3600.0);
+  violations.require("rest.least_share", rest.least_share, 0.0, 1.0);
+  violations.require("rest.horizon", rest.horizon, 1, 100000);
   violations.require("goal_share", goal_share, 0.1, 1.0);
   violations.require("goal_margin_m", goal_margin_m, 0.0, 1.0);
   violations.require("goal_margin_rad", goal_margin_rad, 0.0, 1.0);
@@ -112,6 +119,27 @@ PlanRequest planRequest(const PushTaskGoal& goal, const PushTaskOptions& options
   request.seed = Random::stream(goal.seed, "plan " + std::to_string(plan_number)).below(1u << 31);
   request.deadline_s = options.plan_deadline_s;
   return request;
+}
+
+std::string limitReached(const std::string& object_id, const PushTaskProgress& progress,
+                         const PushTaskOptions& options, int plans_without_progress) {
+  const std::string still =
+      ": still " + errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad);
+  if (progress.pushes >= options.max_pushes) {
+    return "not at the goal after " + std::to_string(progress.pushes) + " pushes" + still;
+  }
+  if (progress.replans > options.max_replans) {
+    return "not at the goal after " + std::to_string(options.max_replans) + " new plans" + still;
+  }
+  if (progress.idle_pushes >= options.max_idle_pushes) {
+    return object_id + " did not move in " + std::to_string(progress.idle_pushes) +
+           " pushes in a row" + still;
+  }
+  if (plans_without_progress >= options.max_plans_without_progress) {
+    return std::to_string(plans_without_progress) + " plans in a row brought " + object_id +
+           " no nearer" + still;
+  }
+  return {};
 }
 
 std::string errorText(double position_m, double yaw_rad) {

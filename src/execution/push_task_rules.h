@@ -24,6 +24,11 @@ bool isSafelyAtGoal(const PushTaskGoal& goal, const ObjectState& object,
 PlanRequest planRequest(const PushTaskGoal& goal, const PushTaskOptions& options,
                         const Observation& observation, const ObjectState& object, int plan_number);
 
+/// Why a task that is not at the goal should be given up; empty: it should not.
+/// @param plans_without_progress  Plans in a row, none shorter than the best before.
+std::string limitReached(const std::string& object_id, const PushTaskProgress& progress,
+                         const PushTaskOptions& options, int plans_without_progress);
+
 /// "0.31 m and 12 deg from the goal".
 std::string errorText(double position_m, double yaw_rad);
 

@@ -67,6 +67,15 @@ bool RestWatch::isAtRest(const ObjectState& object) {
   return at_rest_;
 }
 
+bool HoldWatch::isHeld(double now_s, double off_m) {
+  if (off_m <= far_m_) {
+    far_since_s_.reset();
+    return false;
+  }
+  far_since_s_ = far_since_s_.value_or(now_s);
+  return now_s - *far_since_s_ >= time_s_;
+}
+
 bool isUsable(const ObjectState& object) {
   return object.map_T_object.isFinite() && object.twist.isFinite() && std::isfinite(object.stamp_s);
 }

@@ -55,6 +55,20 @@ class RestWatch {
   bool at_rest_ = false;
 };
 
+/// Is something holding the robot, so that it does not get to where it should be?
+class HoldWatch {
+ public:
+  HoldWatch(double far_m, double time_s) : far_m_(far_m), time_s_(time_s) {}
+
+  /// @param off_m  Distance of the robot from where it should be now.
+  bool isHeld(double now_s, double off_m);
+
+ private:
+  double far_m_;
+  double time_s_;
+  std::optional<double> far_since_s_;
+};
+
 /// True if pose, twist and stamp are finite.
 bool isUsable(const ObjectState& object);
 

@@ -20,6 +20,10 @@ const char* toString(PushOutcome outcome) {
       return "not moved";
     case PushOutcome::kTimeout:
       return "timeout";
+    case PushOutcome::kBrokenOff:
+      return "broken off";
+    case PushOutcome::kBlocked:
+      return "blocked";
   }
   CASEPUSH_CHECK(false, "PushOutcome " << static_cast<int>(outcome));
 }

@@ -149,8 +149,7 @@ struct PushPlanner::Data {
 
   PlanResult search(const PlanRequest& request, const std::vector<Case>& cases,
                     const SearchClock& clock) const;
-  std::string chain(PushPlan* plan, const std::vector<Case>& cases,
-                    PushChecker* push_checker) const;
+  void chain(const std::vector<Case>& cases, PushChecker* push_checker, Continuation* rest) const;
 };
 
 PushPlannerOptions PushPlannerOptions::forPlanner(PlannerKind kind) {
@@ -310,41 +309,48 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
   return result;
 }
 
-// Chains the plan's pushes from its object's pose; says why if one of them cannot be applied.
-std::string PushPlanner::Data::chain(PushPlan* plan, const std::vector<Case>& cases,
-                                     PushChecker* push_checker) const {
+// Chains the plan's pushes from its object's pose and tells which of them can be applied.
+void PushPlanner::Data::chain(const std::vector<Case>& cases, PushChecker* push_checker,
+                              Continuation* rest) const {
   const double step_m = kStepPerCell * push_checker->collisions().columns().resolution_m;
-  const double object_radius_m = objects.at(plan->object.model).radius_m;
-  Pose2 pose = plan->object.map_T_object;
-  for (std::size_t i = 0; i < plan->pushes.size(); ++i) {
-    PlannedPush& push = plan->pushes[i];
+  PushPlan& plan = rest->plan;
+  const double object_radius_m = objects.at(plan.object.model).radius_m;
+  Pose2 pose = plan.object.map_T_object;
+  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
+    PlannedPush& push = plan.pushes[i];
     const std::string name =
         "push " + std::to_string(i + 1) + " (case " + std::to_string(push.case_id) + ")";
     const auto found = std::find_if(cases.begin(), cases.end(), [&push](const Case& push_case) {
       return push_case.id == push.case_id;
     });
     if (found == cases.end()) {
-      return name + ": the case no longer exists";
+      rest->explanation = name + ": the case no longer exists";
+      return;
     }
-    const auto prepared =
-        prepareCases({*found}, plan->zeta, step_m, object_radius_m, robot.radius_m);
-    const PushConflict conflict = push_checker->conflict(prepared.front(), pose);
-    if (conflict != PushConflict::kNone) {
-      return name + ": " + toString(conflict);
+    if (rest->explanation.empty()) {
+      const auto prepared =
+          prepareCases({*found}, plan.zeta, step_m, object_radius_m, robot.radius_m);
+      const PushConflict conflict = push_checker->conflict(prepared.front(), pose);
+      if (conflict == PushConflict::kNone) {
+        ++rest->applicable;
+      } else {
+        rest->explanation = name + ": " + toString(conflict);
+      }
     }
     push.map_T_start = pose;
     push.map_outcome = transform(pose, found->start_outcome);
     pose = push.map_outcome.mean;
   }
-  if (!plan->tolerance.isMet(plan->map_T_goal, pose)) {
-    return "the rest of the plan now ends at " + describe(pose) + ", " +
-           rounded(distance(pose, plan->map_T_goal), 2) + " m from the goal";
+  rest->chained = true;
+  if (rest->explanation.empty() && plan.max_collision_probability) {
+    assessPlan(cases, {step_m, object_radius_m, robot.radius_m}, options.risk, push_checker, &plan);
+    rest->explanation = riskExplanation(plan);
+    rest->applicable = rest->explanation.empty() ? rest->applicable : 0;
   }
-  if (plan->max_collision_probability) {
-    assessPlan(cases, {step_m, object_radius_m, robot.radius_m}, options.risk, push_checker, plan);
-    return riskExplanation(*plan);
+  if (rest->explanation.empty() && !plan.tolerance.isMet(plan.map_T_goal, pose)) {
+    rest->explanation = "the rest of the plan now ends at " + describe(pose) + ", " +
+                        rounded(distance(pose, plan.map_T_goal), 2) + " m from the goal";
   }
-  return {};
 }
 
 PushPlanner::Continuation PushPlanner::continuePlan(
@@ -362,7 +368,7 @@ PushPlanner::Continuation PushPlanner::continuePlan(
   checker.tolerateStart(map_T_object);
   result.plan = rest;
   result.plan.object.map_T_object = map_T_object;
-  result.explanation = data_->chain(&result.plan, cases, &checker);
+  data_->chain(cases, &checker, &result);
   result.valid = result.explanation.empty();
   compoundPushes(&result.plan);
   return result;

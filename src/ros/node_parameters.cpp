@@ -136,6 +136,9 @@ void readPush(ParameterReader& reader, ExecutePushOptions& options) {
   reader.read("push/stale_robot", options.stale_robot_s);
   reader.read("push/lost_object", options.lost_object_s);
   reader.read("push/alpha", options.alpha);
+  std::string test = toString(options.test);
+  reader.read("push/test", test, {"hotelling", "plug_in"});
+  options.test = test == "plug_in" ? OutcomeTest::kPlugIn : OutcomeTest::kHotelling;
   reader.check([&] { options.validate(); });
 }
 
@@ -144,6 +147,10 @@ void readTask(ParameterReader& reader, PushTaskOptions& options) {
   reader.read("task/max_replans", options.max_replans, 0, 100000);
   reader.read("task/max_pushes", options.max_pushes, 1, 100000);
   reader.read("task/max_failed_plans", options.max_failed_plans, 1, 1000);
+  reader.read("task/break_off", options.break_off);
+  reader.read("task/least_goal_share", options.rest.least_share);
+  reader.read("task/replan_when_rejected", options.rest.replan_when_rejected);
+  reader.read("task/horizon", options.rest.horizon, 1, 100000);
   reader.read("task/plan_deadline", options.plan_deadline_s);
   reader.read("task/look_timeout", options.look_timeout_s);
   reader.check([&] { options.validate(); });

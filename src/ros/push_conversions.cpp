@@ -20,6 +20,8 @@ static_assert(ExecutedPush::OBJECT_LOST == static_cast<int>(PushOutcome::kObject
 static_assert(ExecutedPush::ROBOT_LOST == static_cast<int>(PushOutcome::kRobotLost));
 static_assert(ExecutedPush::NOT_MOVED == static_cast<int>(PushOutcome::kNotMoved));
 static_assert(ExecutedPush::TIMEOUT == static_cast<int>(PushOutcome::kTimeout));
+static_assert(ExecutedPush::BROKEN_OFF == static_cast<int>(PushOutcome::kBrokenOff));
+static_assert(ExecutedPush::BLOCKED == static_cast<int>(PushOutcome::kBlocked));
 static_assert(PlanPushResult::SOLVED == static_cast<int>(PlanStatus::kSolved));
 static_assert(PlanPushResult::INVALID_REQUEST == static_cast<int>(PlanStatus::kInvalidRequest));
 static_assert(PlanPushResult::NO_CASES == static_cast<int>(PlanStatus::kNoCases));
@@ -219,7 +221,7 @@ PushReport fromMessage(const ExecutedPush& message) {
   PushReport report;
   report.object_id = message.object_id;
   report.case_id = message.case_id;
-  report.outcome = enumFrom(message.outcome, PushOutcome::kTimeout, "push report: outcome");
+  report.outcome = enumFrom(message.outcome, PushOutcome::kBlocked, "push report: outcome");
   report.explanation = message.explanation;
   report.start_stamp_s = message.start_stamp.toSec();
   report.end_stamp_s = message.end_stamp.toSec();

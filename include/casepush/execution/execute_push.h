@@ -50,6 +50,24 @@ PushTrajectory pushTrajectory(const PushConfiguration& configuration, const Robo
 /// @throws InputError from validateCase.
 PushTrajectory pushTrajectory(const Case& push_case);
 
+/// How it is judged whether a case explains where the object came to rest.
+enum class OutcomeTest {
+  kHotelling,  ///< Counts how often the case was practised: see testPrediction().
+  kPlugIn,     ///< As if the case's Gaussian were known for certain: see testPlugIn().
+};
+const char* toString(OutcomeTest test);
+
+/// When a replayed push is broken off because the object leaves the course that the case says (its
+/// tube): for `hold_s` it is outside of the tube at every time within `slack_s` of now.
+struct TubeWatchOptions {
+  bool on = false;  ///< Practices go on to the end, whatever happens.
+  double alpha = 1e-4;     ///< Outside: a pose so far off is rarer than this,
+  double least_m = 0.06;   ///< and it is off by more than this
+  double least_rad = 0.2;  ///< or that.
+  double slack_s = 0.3;    ///< The object sets off now earlier, now later.
+  double hold_s = 0.1;
+};
+
 struct ExecutePushOptions {
   double sample_period_s = 0.1;
   double approach_speed_mps = 0.5;
@@ -66,11 +84,16 @@ struct ExecutePushOptions {
   double stale_robot_s = 0.2;  ///< Age of the robot's pose above which it stops.
   double lost_object_s = 1.0;  ///< Age of the object's pose above which a push is abandoned.
   double alpha = 0.01;         ///< Of the prediction test.
+  OutcomeTest test = OutcomeTest::kHotelling;
+  TubeWatchOptions tube;
+  double blocked_m = 0.2;    ///< The robot is blocked if it is so far from where it should be
+  double blocked_s = 0.3;    ///< during the push, for so long.
   void validate() const;       ///< @throws InputError listing every violation.
 };
 
 /// True if the pushed object came to rest where it was seen, so that the push tells something about
-/// the case (also if it missed the object): the outcome is `recorded.start_outcome.mean`.
+/// the case (also if it missed the object, or was broken off): the outcome is
+/// `recorded.start_outcome.mean`.
 bool isObservation(const PushReport& report);
 
 /// Finds the robot's way to `goal` ending straight along `dock_direction_rad` (in the map).
@@ -89,7 +112,8 @@ std::vector<PlacedObject> otherObjects(const Observation& observation, const std
 /// The robot follows the approach path, docks slowly, and waits until it has seen the object at
 /// rest. That pose is the start frame, in which it follows the push's trajectory: recorded actions
 /// plus feedback on the pose. Then it stands still until the object has come to rest. If docking
-/// nudged the object, it docks anew, a limited number of times.
+/// nudged the object, it docks anew, a limited number of times. It breaks the push off if the
+/// object leaves the case's tube (TubeWatchOptions), and fails if something holds the robot.
 ///
 /// It commands zero at once, and goes on if things are well again in time, while the robot's pose
 /// is stale or the observation is not finite.

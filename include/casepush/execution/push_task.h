@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "casepush/execution/execute_push.h"
+#include "casepush/execution/replan_cause.h"
 #include "casepush/model/push_plan.h"
 
 namespace casepush {
@@ -34,11 +35,35 @@ struct PushTaskGoal {
   std::uint64_t seed = 1;
 };
 
+/// When the rest of a plan, begun where the last push really ended, is given up.
+enum class RestRule {
+  kMeanAtGoal,  ///< As soon as its mean ends beside the goal.
+  kLikelyEnd,   ///< As soon as it ends at the goal much less probably than a rest that aims right.
+};
+const char* toString(RestRule rule);
+
+struct RestOptions {
+  RestRule rule = RestRule::kLikelyEnd;
+  /// kLikelyEnd: least probability of ending at the goal, as a share of what it would be if the
+  /// same pushes aimed at the goal's centre. Far from the goal pushes scatter more than they miss;
+  /// for the last one or two the rule is strict.
+  double least_share = 0.01;
+  /// Pushes ahead that must be free of collisions. Those further ahead start where nobody knows yet
+  /// within centimetres; they are looked at again after each push.
+  int horizon = 1;
+  /// Give the plan up after each rejected prediction (paper section 3.3), also if the rest, with
+  /// the case as adapted by then, still leads to the goal.
+  bool replan_when_rejected = false;
+};
+
 struct PushTaskOptions {
   ExecutePushOptions push;
+  bool break_off = true;  ///< Switches push.tube on.
+  RestOptions rest;
   int max_replans = 60;
   int max_pushes = 200;
   int max_failed_plans = 5;             ///< In a row, with different seeds; likewise approaches.
+  int max_idle_pushes = 5;              ///< In a row that did not move the object.
   int max_plans_without_progress = 25;  ///< Plans in a row, none shorter than the best before.
   double plan_deadline_s = 10.0;        ///< Wall time for one plan.
   double look_timeout_s = 10.0;         ///< Wait for the object to be seen at rest.
@@ -50,12 +75,17 @@ struct PushTaskOptions {
 
 /// Numbers of a task, kept up to date while it runs.
 struct PushTaskProgress {
-  std::string phase;   ///< "look", "planning", "approach", "dock", "push", "rest" or "done".
-  int push_index = 0;  ///< Of the current plan, from 1.
-  int push_count = 0;  ///< Of the current plan.
-  int pushes = 0;      ///< Executed in all.
+  std::string phase;    ///< "look", "planning", "approach", "dock", "push", "rest" or "done".
+  int push_index = 0;   ///< Of the current plan, from 1.
+  int push_count = 0;   ///< Of the current plan.
+  int pushes = 0;       ///< Executed in all.
+  int idle_pushes = 0;  ///< The last ones, in a row, that did not move the object.
   int plans = 0;
-  int replans = 0;
+  int replans = 0;  ///< Plans whose rest was given up for another plan.
+  ReplanCounts replan_causes;
+  /// Pushes made with each plan: all but the last plan were given up then. Plans of which no push
+  /// was made count with 0.
+  std::vector<int> pushes_per_plan;
   int rejected_predictions = 0;
   double plan_length_m = 0.0;  ///< Of the first plan.
   double distance_to_goal_m = 0.0;
@@ -82,10 +112,11 @@ struct PushTaskServices {
 /// Brings one object to a goal: plan, approach, push, wait, test, go on or re-plan (paper 3.3).
 ///
 /// Looks until the object is seen at rest, asks for a plan, and executes it push by push. After
-/// each push it goes on with the plan, re-anchored at the observed pose, unless the prediction was
-/// rejected or the rest does not lead to the goal safely any more; then it plans anew. It has
-/// succeeded once the object rests within the tolerance by some margin. Where no plan for that is
-/// found, the bare tolerance is enough.
+/// each push it goes on with the plan, re-anchored at the observed pose and with the cases as
+/// adapted by then, unless its next pushes would collide or it would end too far from the goal
+/// (RestOptions); then it plans anew. A push whose object leaves its expected course is broken off.
+/// The task has succeeded once the object rests within the tolerance by some margin. Where no plan
+/// for that is found, the bare tolerance is enough. docs/execution.md says why.
 ///
 /// The task itself changes no case: whoever receives the reports adapts them if the goal says so.
 class PushTask : public Behaviour {

@@ -12,7 +12,7 @@ namespace casepush {
 struct PredictionTest {
   double t_squared = 0.0;  ///< Generalised squared distance; 0 if untested.
   double p_value = 1.0;    ///< Probability of a deviation at least this large if the case is right.
-  bool rejected = false;   ///< p_value < alpha.
+  bool rejected = false;   ///< p_value < alpha, or the object left its course on the way.
 };
 
 /// How a single push ended.
@@ -24,6 +24,8 @@ enum class PushOutcome {
   kRobotLost,       ///< The robot's own pose is stale.
   kNotMoved,        ///< The object did not move.
   kTimeout,
+  kBrokenOff,  ///< The object left the course that the case says, so that the robot stopped.
+  kBlocked,    ///< The robot did not get along as commanded: something holds it.
 };
 const char* toString(PushOutcome outcome);
 

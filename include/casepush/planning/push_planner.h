@@ -82,7 +82,9 @@ class PushPlanner {
   /// the chain at the observed pose and checks collisions (at the plan's zeta) and goal. Empty
   /// explanation: yes.
   struct Continuation {
-    bool valid = false;
+    bool valid = false;    ///< Every push can be applied, and the last one ends in the goal.
+    bool chained = false;  ///< All cases are known, so that `plan` tells where the rest leads.
+    int applicable = 0;    ///< Pushes from the first one on that can be applied: at most all.
     std::string explanation;
     PushPlan plan;  ///< The re-anchored rest.
   };

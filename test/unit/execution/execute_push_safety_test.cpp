@@ -131,5 +131,51 @@ TEST(ExecutePushSafety, cancelBeforeTheFirstTickWorksToo) {
   EXPECT_EQ(push.report()->outcome, PushOutcome::kCancelled);
 }
 
+TEST(ExecutePushSafety, breaksOffWithinTenthsOfASecondIfTheObjectIsHeld) {
+  FakeWorld world(6);
+  ExecutePush first = firstTrial();
+  ASSERT_EQ(test::run(first, world), BehaviourStatus::kSucceeded);
+  Case known = first.report()->recorded;
+  known.start_outcome.covariance = Eigen::Vector3d(0.02, 0.02, 0.05).cwiseAbs2().asDiagonal();
+  known.effective_count = 20;
+  for (const bool on : {true, false}) {
+    ExecutePushOptions options;
+    options.tube.on = on;
+    world = FakeWorld(7);
+    ExecutePush push("chair_1", known, test::fakeRobot(), test::detour, options);
+    ASSERT_TRUE(test::runUntil(push, world, Phase::kPush));
+    const double began_s = world.now_s;
+    world.object_fixed = true;
+    test::runUntil(push, world, Phase::kRest);
+    const double pushed_s = world.now_s - began_s;
+    test::run(push, world);
+    const PushReport& report = *push.report();
+    EXPECT_TRUE(isObservation(report));
+    EXPECT_TRUE(report.test.rejected);
+    if (on) {
+      EXPECT_LT(pushed_s, 1.2);
+      EXPECT_EQ(report.outcome, PushOutcome::kBrokenOff);
+      EXPECT_LT(report.test.p_value, 1e-4);
+      EXPECT_NE(report.explanation.find("off its course"), std::string::npos);
+    } else {
+      EXPECT_GT(pushed_s, 1.9);
+      EXPECT_EQ(report.outcome, PushOutcome::kNotMoved);
+    }
+  }
+}
+
+TEST(ExecutePushSafety, stopsWhenSomethingHoldsTheRobot) {
+  FakeWorld world(8);
+  ExecutePush push = firstTrial();
+  ASSERT_TRUE(test::runUntil(push, world, Phase::kPush));
+  const double held_s = world.now_s;
+  world.robot_blocked = true;
+  EXPECT_EQ(test::run(push, world, 10.0), BehaviourStatus::kFailed);
+  EXPECT_EQ(push.report()->outcome, PushOutcome::kBlocked);
+  EXPECT_LT(world.now_s - held_s, 1.7);
+  EXPECT_EQ(push.describe(), "something holds the robot while it pushes chair_1");
+  EXPECT_FALSE(isObservation(*push.report()));
+}
+
 }  // namespace
 }  // namespace casepush

@@ -129,6 +129,8 @@ inline PushPlanner::Continuation reanchored(const PushPlan& rest, const Pose2& m
     push.map_outcome = transform(pose, learntCases()[push.case_id - 1].start_outcome);
     pose = push.map_outcome.mean;
   }
+  continuation.chained = true;
+  continuation.applicable = static_cast<int>(rest.pushes.size());
   continuation.valid = rest.tolerance.isMet(rest.map_T_goal, pose);
   continuation.explanation = continuation.valid ? "" : "the rest does not end in the goal any more";
   return continuation;

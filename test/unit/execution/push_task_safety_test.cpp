@@ -118,7 +118,17 @@ TEST_F(PushTaskSafetyTest, givesUpAfterItsLimits) {
   EXPECT_NE(few_pushes.describe().find("after 2 pushes"), std::string::npos);
 
   options = PushTaskOptions();
+  options.max_idle_pushes = 3;
+  PushTask no_motion = task();
+  EXPECT_EQ(test::run(no_motion, world, 900.0), BehaviourStatus::kFailed);
+  EXPECT_EQ(no_motion.status(), PushTaskStatus::kNoProgress);
+  EXPECT_NE(no_motion.describe().find("chair_1 did not move in 3 pushes in a row: still 2.2"),
+            std::string::npos)
+      << no_motion.describe();
+
+  options = PushTaskOptions();
   options.max_plans_without_progress = 4;
+  options.max_idle_pushes = 100;
   PushTask no_progress = task();
   EXPECT_EQ(test::run(no_progress, world, 900.0), BehaviourStatus::kFailed);
   EXPECT_EQ(no_progress.status(), PushTaskStatus::kNoProgress);

@@ -11,8 +11,8 @@
 namespace casepush {
 namespace {
 
-using test::fakeRobot;
 using test::FakePlans;
+using test::fakeRobot;
 using test::FakeWorld;
 using test::learntCases;
 using test::PushTaskTest;
@@ -35,6 +35,7 @@ TEST_F(PushTaskTest, bringsTheObjectToTheGoalByGroundTruth) {
     EXPECT_EQ(progress.pushes, static_cast<int>(reports.size()));
     EXPECT_EQ(progress.plans, plan_reports);
     EXPECT_EQ(progress.plans, progress.replans + 1);
+    EXPECT_EQ(static_cast<int>(progress.pushes_per_plan.size()), progress.plans);
     EXPECT_GT(progress.plan_length_m, 1.5);
     EXPECT_LT(progress.distance_to_goal_m, 0.2);
     EXPECT_EQ(progress.phase, "done");
@@ -66,6 +67,7 @@ TEST_F(PushTaskTest, aimsForTheInnerPartOfTheToleranceButAcceptsItsEdge) {
 }
 
 TEST_F(PushTaskTest, plansAnewWhenThePredictionIsRejected) {
+  options.rest.replan_when_rejected = true;
   world.scatter = 0.0;
   world.deceleration_mps2 = 0.08;  // It rolls on much farther than the cases say.
   PushTask push_task = task();
@@ -78,10 +80,12 @@ TEST_F(PushTaskTest, plansAnewWhenThePredictionIsRejected) {
 }
 
 TEST_F(PushTaskTest, plansAnewWhenTheRestIsNotValidAnyMore) {
-  services.continue_plan = [](const PushPlan&, const Pose2&, const std::vector<Case>&,
+  services.continue_plan = [](const PushPlan& rest, const Pose2&, const std::vector<Case>&,
                               const std::vector<PlacedObject>&) {
     PushPlanner::Continuation blocked;
+    blocked.plan = rest;
     blocked.explanation = "push 1: the chair would hit a wall";
+    blocked.chained = true;
     return blocked;
   };
   world.scatter = 0.0;
@@ -91,6 +95,8 @@ TEST_F(PushTaskTest, plansAnewWhenTheRestIsNotValidAnyMore) {
   }
   EXPECT_EQ(reports.size(), 1u);
   EXPECT_EQ(push_task.describe(), "planning anew: push 1: the chair would hit a wall");
+  EXPECT_EQ(push_task.progress().replan_causes, (ReplanCounts{{ReplanCause::kRestCollides, 1}}));
+  EXPECT_EQ(push_task.progress().pushes_per_plan, std::vector<int>{1});
   EXPECT_EQ(test::run(push_task, world, 900.0), BehaviourStatus::kSucceeded);
 }
 

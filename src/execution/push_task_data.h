@@ -1,0 +1,62 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "casepush/execution/push_task.h"
+#include "watches.h"
+
+namespace casepush {
+
+/// What PushTask is made of: the stages are in push_task.cpp, what happens to a plan's pushes in
+/// push_task_pushes.cpp.
+struct PushTask::Data {
+  enum class Stage { kLook, kPlan, kPush, kDone };
+
+  Data(PushTaskGoal push_goal, RobotModel robot_model, PushTaskServices outside,
+       const PushTaskOptions& task_options);
+
+  PushTaskGoal goal;
+  RobotModel robot;
+  PushTaskServices services;
+  PushTaskOptions options;
+  RobotWatch robot_watch;
+  RestWatch rest;
+  TickClock clock;
+
+  Stage stage = Stage::kLook;
+  PushTaskStatus status = PushTaskStatus::kRunning;
+  PushTaskProgress progress;
+  std::string text = "looking for the object";
+  bool cancelled = false;
+  std::optional<double> began_s;
+  double stage_began_s = 0.0;
+  std::optional<PushPlan> plan;  ///< Its first push is the next one.
+  PlanRequest request;
+  std::optional<ExecutePush> push;
+  int failed_plans = 0;
+  int failed_approaches = 0;
+  int plans_without_progress = 0;
+  double shortest_plan_m = std::numeric_limits<double>::infinity();
+
+  Tick run(const Observation& observation);
+  Tick step(const Observation& observation);
+  Tick look(const Observation& observation);
+  Tick awaitPlan(const Observation& observation);
+  Tick pushOn(const Observation& observation);
+  void enter(Stage next, const char* phase, const std::string& what, double now_s);
+  void end(PushTaskStatus final_status, const std::string& why);
+  void requestPlan(const Observation& observation, const ObjectState& object);
+  void acceptPlan(const PlanResult& result, const Observation& observation);
+  void rejectPlan(const PlanResult& result, const Observation& observation);
+  bool isLimitReached();
+  void startPush(const Observation& observation);
+  void concludePush(const PushReport& report, const Observation& observation);
+  void judgeOutcome(const PushReport& report, const Observation& observation);
+  void goOn(const PushReport& report, const ObjectState& object, const Observation& observation);
+  void replan(ReplanCause cause, const std::string& why, const Observation& observation);
+  void measure(const Observation& observation);
+};
+
+}  // namespace casepush

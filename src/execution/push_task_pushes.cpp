@@ -1,0 +1,159 @@
+// How PushTask executes a plan: one push after the other, and what each outcome means for the rest.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "push_task_data.h"
+#include "push_task_rules.h"
+#include "rest_of_plan.h"
+
+namespace casepush {
+namespace {
+
+// A push that moves the object less than this did not move it: the scatter of its estimate.
+constexpr double kIdleM = 0.02;
+constexpr double kIdleRad = 0.05;
+
+bool hasMoved(const PushReport& report) {
+  return distance(report.map_T_start, report.map_T_end) > kIdleM ||
+         std::abs(yawDifference(report.map_T_start, report.map_T_end)) > kIdleRad;
+}
+
+/// What a rejected prediction counts as.
+ReplanCause causeOf(const PushReport& report) {
+  return report.outcome == PushOutcome::kBrokenOff ? ReplanCause::kLeftTube
+                                                   : ReplanCause::kPredictionRejected;
+}
+
+}  // namespace
+
+void PushTask::Data::startPush(const Observation& observation) {
+  const PlannedPush& planned = plan->pushes.front();
+  const std::vector<Case> cases = services.cases();
+  const auto found = std::find_if(cases.begin(), cases.end(), [&planned](const Case& candidate) {
+    return candidate.id == planned.case_id;
+  });
+  if (found == cases.end()) {
+    PlanResult unknown;
+    unknown.status = PlanStatus::kUnreachable;
+    unknown.explanation =
+        "the plan uses case " + std::to_string(planned.case_id) + ", which is not known here";
+    rejectPlan(unknown, observation);
+    return;
+  }
+  if (isLimitReached()) {
+    return;
+  }
+  failed_plans = 0;
+  ++progress.push_index;
+  push.emplace(goal.object_id, *found, robot, services.approach, options.push);
+  enter(Stage::kPush, "approach", "approaching", observation.stamp_s);
+}
+
+bool PushTask::Data::isLimitReached() {
+  const std::string why = limitReached(goal.object_id, progress, options, plans_without_progress);
+  if (!why.empty()) {
+    end(PushTaskStatus::kNoProgress, why);
+  }
+  return stage == Stage::kDone;
+}
+
+Tick PushTask::Data::pushOn(const Observation& observation) {
+  static const char* const kPhases[] = {"approach", "dock", "push", "rest", "rest"};
+  const Tick tick = push->tick(observation);
+  progress.phase = kPhases[static_cast<int>(push->phase())];
+  text = push->describe();
+  if (!push->report()) {
+    return tick;
+  }
+  const PushReport report = *push->report();
+  push.reset();
+  if (isObservation(report)) {
+    ++progress.pushes;
+    ++progress.pushes_per_plan.back();
+    progress.idle_pushes = hasMoved(report) ? 0 : progress.idle_pushes + 1;
+  }
+  if (report.test.rejected) {
+    ++progress.rejected_predictions;
+  }
+  if (services.on_report) {
+    services.on_report(report);
+  }
+  concludePush(report, observation);
+  return {};
+}
+
+void PushTask::Data::concludePush(const PushReport& report, const Observation& observation) {
+  switch (report.outcome) {
+    case PushOutcome::kDone:
+    case PushOutcome::kNotMoved:
+    case PushOutcome::kBrokenOff:
+      failed_approaches = 0;
+      judgeOutcome(report, observation);
+      return;
+    case PushOutcome::kApproachFailed:
+      if (++failed_approaches >= options.max_failed_plans) {
+        end(PushTaskStatus::kNoProgress,
+            "the robot can not get to the next push: " + report.explanation);
+      } else {
+        replan(ReplanCause::kApproachFailed, report.explanation, observation);
+      }
+      return;
+    case PushOutcome::kRobotLost:
+      end(PushTaskStatus::kRobotLost, report.explanation);
+      return;
+    case PushOutcome::kObjectLost:
+    case PushOutcome::kTimeout:
+    case PushOutcome::kCancelled:
+    case PushOutcome::kBlocked:
+      replan(ReplanCause::kPushFailed, report.explanation, observation);
+      return;
+  }
+}
+
+void PushTask::Data::judgeOutcome(const PushReport& report, const Observation& observation) {
+  const ObjectState* object = usableObject(observation, goal.object_id);
+  if (object == nullptr) {
+    replan(ReplanCause::kPushFailed, goal.object_id + " is not in sight", observation);
+    return;
+  }
+  if (isSafelyAtGoal(goal, *object, options)) {
+    end(PushTaskStatus::kSucceeded, goal.object_id + " is at the goal");
+    return;
+  }
+  plan->pushes.erase(plan->pushes.begin());
+  if (report.test.rejected && options.rest.replan_when_rejected) {
+    replan(causeOf(report), report.explanation, observation);
+  } else if (plan->pushes.empty()) {
+    replan(ReplanCause::kEndedBesideGoal, "the plan ended beside the goal", observation);
+  } else {
+    goOn(report, *object, observation);
+  }
+}
+
+void PushTask::Data::goOn(const PushReport& report, const ObjectState& object,
+                          const Observation& observation) {
+  const PushPlanner::Continuation rest_of_plan = services.continue_plan(
+      *plan, object.map_T_object, services.cases(), otherObjects(observation, goal.object_id));
+  const RestVerdict verdict = judgeRest(rest_of_plan, options.rest);
+  if (verdict.goes_on) {
+    plan = rest_of_plan.plan;
+    startPush(observation);
+  } else if (report.test.rejected) {
+    replan(causeOf(report), report.explanation, observation);
+  } else {
+    replan(verdict.cause, verdict.why, observation);
+  }
+}
+
+void PushTask::Data::replan(ReplanCause cause, const std::string& why,
+                            const Observation& observation) {
+  ++progress.replans;
+  ++progress.replan_causes[cause];
+  if (!isLimitReached()) {
+    rest.reset();
+    enter(Stage::kLook, "look", "planning anew: " + why, observation.stamp_s);
+  }
+}
+
+}  // namespace casepush

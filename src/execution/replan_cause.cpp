@@ -1,0 +1,27 @@
+#include "casepush/execution/replan_cause.h"
+
+namespace casepush {
+
+const char* toString(ReplanCause cause) {
+  switch (cause) {
+    case ReplanCause::kPredictionRejected:
+      return "prediction_rejected";
+    case ReplanCause::kLeftTube:
+      return "left_tube";
+    case ReplanCause::kRestMissesGoal:
+      return "rest_misses_goal";
+    case ReplanCause::kRestCollides:
+      return "rest_collides";
+    case ReplanCause::kEndedBesideGoal:
+      return "ended_beside_goal";
+    case ReplanCause::kApproachFailed:
+      return "approach_failed";
+    case ReplanCause::kPushFailed:
+      return "push_failed";
+    case ReplanCause::kObjectMoved:
+      return "object_moved";
+  }
+  return "unknown";
+}
+
+}  // namespace casepush
