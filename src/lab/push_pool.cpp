@@ -16,6 +16,18 @@ constexpr double kPushLimitS = 180.0;
 // Pushes under way ahead of the one that is judged, for each thread.
 constexpr int kAheadPerJob = 2;
 
+/// The robot is put right behind where a push starts, so its approach is a straight line.
+RobotPath straightPath(const Observation& observation, const Pose2& goal,
+                       double /*dock_direction_rad*/) {
+  RobotPath path;
+  path.found = true;
+  path.waypoints = {observation.map_T_robot, goal};
+  path.length_m = distance(observation.map_T_robot, goal);
+  return path;
+}
+
+}  // namespace
+
 void addWalls(WorldModel& world, double half_m) {
   const double at = half_m - 0.5 * kWallM;
   const auto add = [&](const std::string& name, double x, double y, double length_x,
@@ -29,18 +41,6 @@ void addWalls(WorldModel& world, double half_m) {
   add("wall_west", -at, 0.0, kWallM, 2.0 * (half_m - kWallM));
   add("wall_east", at, 0.0, kWallM, 2.0 * (half_m - kWallM));
 }
-
-/// The robot is put right behind where a push starts, so its approach is a straight line.
-RobotPath straightPath(const Observation& observation, const Pose2& goal,
-                       double /*dock_direction_rad*/) {
-  RobotPath path;
-  path.found = true;
-  path.waypoints = {observation.map_T_robot, goal};
-  path.length_m = distance(observation.map_T_robot, goal);
-  return path;
-}
-
-}  // namespace
 
 WorldModel learningArena(const std::string& object, const std::string& robot, bool walls) {
   const double half_m = walls ? kWalledHalfM : kOpenHalfM;

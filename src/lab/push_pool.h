@@ -18,6 +18,9 @@ namespace casepush {
 /// The world in which objects are learnt, with or without walls; the object is called "object".
 WorldModel learningArena(const std::string& object, const std::string& robot, bool walls);
 
+/// Walls around a square from -half_m to half_m in x and y.
+void addWalls(WorldModel& world, double half_m);
+
 /// The lab's options with the load that the object carries while it is learnt.
 LabOptions loadedLab(const LearningOptions& options, const std::string& object_id);
 

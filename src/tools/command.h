@@ -34,6 +34,7 @@ void addMapCommand(CLI::App& app, Run& run);
 void addBenchCommand(CLI::App& app, Run& run);
 void addPlanBench(CLI::App& bench, Run& run);  ///< Of addBenchCommand().
 void addExperimentCommand(CLI::App& app, Run& run);
+void addTaskExperiments(CLI::App& experiment, Run& run);  ///< Of addExperimentCommand().
 
 /// A finite number in [low, high]: unlike CLI::Range, no NaN.
 CLI::Validator finiteIn(double low, double high);

@@ -193,6 +193,7 @@ void addExperimentCommand(CLI::App& app, Run& run) {
   command->require_subcommand(1);
   addCoverage(*command, run);
   addTransfer(*command, run);
+  addTaskExperiments(*command, run);
 }
 
 }  // namespace casepush

@@ -5,9 +5,11 @@
 #include <string>
 #include <tuple>
 
+#include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
 #include "command.h"
 #include "task_arguments.h"
+#include "task_experiment_json.h"
 
 namespace casepush {
 namespace {
@@ -19,6 +21,7 @@ struct PushArguments {
   TaskArguments task;
   PlannerArguments planner;
   bool no_adapt = false;
+  bool keep = false;
   CasterModel caster_model = CasterModel::kFeatherstone;
   std::optional<Load> load;
   double time_limit_s = 1200.0;
@@ -78,9 +81,31 @@ nlohmann::ordered_json pushJson(const PushReport& report) {
           {"duration_s", report.end_stamp_s - report.start_stamp_s}};
 }
 
+PushContext contextOf(const PushArguments& arguments) {
+  PushContext context;
+  context.load_kg = arguments.load ? arguments.load->mass_kg : 0.0;
+  return context;
+}
+
+/// Adapts the stored cases as the task adapted its own. A case that was learnt with another load is
+/// copied first, and keeps what it knew.
+void keepWhatWasLearnt(const PushArguments& arguments, const std::vector<PushReport>& reports) {
+  const PushContext context = contextOf(arguments);
+  CaseBase base(arguments.task.case_base, CaseBase::Access::kReadWrite);
+  for (const PushReport& report : reports) {
+    if (isObservation(report)) {
+      base.adapt(base.forContext(report.case_id, context), observedPush(report, context),
+                 report.test.p_value, AdaptationOptions{}, CovarianceFloor{});
+    }
+  }
+}
+
 int push(const PushArguments& arguments) {
   const Stopwatch watch;
-  Task task = prepareTask(arguments.task);
+  if (arguments.keep && arguments.no_adapt) {
+    throw InputError("--keep", "needs adaptation; leave --no-adapt out");
+  }
+  Task task = prepareTask(arguments.task, contextOf(arguments));
   PushRunOptions options;
   options.lab.simulator.seed = arguments.task.common.seed;
   options.lab.simulator.caster_model = arguments.caster_model;
@@ -97,6 +122,9 @@ int push(const PushArguments& arguments) {
                   [&](const PushTask& now) { progress.update(now); });
   if (result.status == PushTaskStatus::kInvalidGoal) {
     throw InputError("push", result.explanation);
+  }
+  if (arguments.keep) {
+    keepWhatWasLearnt(arguments, result.reports);
   }
   nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
   for (const PushReport& report : result.reports) {
@@ -115,6 +143,7 @@ int push(const PushArguments& arguments) {
                {"yaw_error_rad", result.yaw_error_rad},
                {"pushes", result.progress.pushes},
                {"replans", result.progress.replans},
+               {"replan_causes", replanCausesJson(result.progress.replan_causes)},
                {"rejected_predictions", result.progress.rejected_predictions},
                {"plan_length_m", result.progress.plan_length_m},
                {"sim_time_s", result.sim_time_s},
@@ -139,8 +168,10 @@ void addPushCommand(CLI::App& app, Run& run) {
       app.add_subcommand("push", "Push an object to a goal in the simulator, planning from cases");
   addTaskOptions(*command, arguments->task);
   addPlannerOptions(*command, arguments->planner);
-  command->add_flag("--no-adapt", arguments->no_adapt,
-                    "Do not adapt the cases while pushing (the file is never changed)");
+  command->add_flag("--no-adapt", arguments->no_adapt, "Do not adapt the cases while pushing");
+  command->add_flag("--keep", arguments->keep,
+                    "Write the adapted cases to the case base: those learnt with another load are "
+                    "copied for this one first; without it the file is not changed");
   command->add_option("--time-limit", arguments->time_limit_s, "Simulated seconds for the task")
       ->check(finiteIn(1.0, 36000.0))
       ->capture_default_str();

@@ -85,13 +85,13 @@ PushPlannerOptions plannerOptions(const PlannerArguments& arguments) {
   return options;
 }
 
-Task prepareTask(const TaskArguments& arguments) {
+Task prepareTask(const TaskArguments& arguments, const PushContext& context) {
   Task task{Catalog::standard(), {}, {}, nullptr};
   const std::string name = task.catalog.object(arguments.object).name;
   const WorldModel world = loadWorld(task.catalog, arguments.world);
   const std::string robot = task.catalog.robot(world.robot).name;
   for (const Case& push_case :
-       inContext(CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name), {})) {
+       inContext(CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name), context)) {
     if (isFor(push_case, name, robot)) {
       task.cases.push_back(push_case);
     }

@@ -45,8 +45,9 @@ struct Task {
   std::shared_ptr<const Map> map;
 };
 
+/// @param context  In which the object will be pushed: chooses among copies of a case.
 /// @throws InputError naming what cannot be used.
-Task prepareTask(const TaskArguments& arguments);
+Task prepareTask(const TaskArguments& arguments, const PushContext& context = {});
 
 /// {"x_m", "y_m", "yaw_deg"}.
 nlohmann::ordered_json poseJson(const Pose2& pose);

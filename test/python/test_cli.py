@@ -153,6 +153,46 @@ def test_pushes_a_chair_to_a_goal(case_base):
     assert result["seed"] == 2
     assert {"replans", "plan_length_m", "sim_time_s", "timing"} <= set(result)
     assert "push 1 of" in process.stderr
+    assert sum(result["replan_causes"].values()) == result["replans"]
+
+
+def test_keeps_what_a_loaded_object_taught_beside_what_is_known(tmp_path, case_base):
+    file = shutil.copy(case_base, tmp_path / "kept.db")
+    arguments = ("push", "--object", "office_chair", "--world", "open_floor", "--case-base", file,
+                 "--caster-model", "planar", "--load", 20, "--seed", 2, "--json")
+    refused = casepush(*arguments, "--keep", "--no-adapt")
+    assert refused.returncode == 2
+    assert "--keep" in refused.stderr
+    pushed = casepush(*arguments, "--keep")
+    assert pushed.returncode == 0, pushed.stderr
+    used = {report["case"] for report in result_of(pushed)["push_reports"]}
+    before = {each["id"]: each for each in
+              result_of(casepush("cases", "list", "--case-base", case_base, "--json"))["cases"]}
+    after = {each["id"]: each for each in
+             result_of(casepush("cases", "list", "--case-base", file, "--json"))["cases"]}
+    assert len(after) == len(before) + len(used)
+    assert all(after[each] == before[each] for each in before)
+
+
+@pytest.mark.parametrize("experiment, rows", [
+    (("success", "--objects", "office_chair", "--size", 7), 1),
+    (("replans", "--practices", 3, 4, "--distance", 1.5), 2),
+    (("adaptation", "--object", "office_chair", "--practices", 4, "--distance", 1.5), 4),
+])
+def test_measures_tasks(experiment, rows):
+    arguments = ("experiment", *experiment, "--caster-models", "planar", "--tasks", 1,
+                 "--case-bases", 1, "--cases", 8)
+    process = casepush(*arguments, "--json")
+    assert process.returncode == 0, process.stderr
+    result = result_of(process)
+    assert len(result["rows"]) == rows
+    for row in result["rows"]:
+        assert row["tasks"] == row["success"]["of"] == 1
+        assert row["success"]["ci95"][0] < row["success"]["ci95"][1] <= 1.0
+        assert row["replans"]["mean"] == sum(row["replan_causes"].values())
+    assert "left" in process.stderr
+    table = casepush(*arguments)
+    assert len(table.stdout.splitlines()) == rows + 2
 
 
 def test_export_and_import_keep_every_case(tmp_path, case_base):

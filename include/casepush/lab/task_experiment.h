@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casepush/lab/learning.h"
+#include "casepush/lab/push_run.h"
+#include "casepush/lab/room_generator.h"
+
+namespace casepush {
+
+/// Where the tasks of an experiment are set.
+enum class TaskSetting {
+  kRandomRooms,  ///< Each task in a cluttered room of its own, see generateRoom().
+  kDiagonal,     ///< On an open floor, the goal at a fixed distance diagonally; headings at random.
+};
+
+struct TaskExperimentOptions {
+  std::string object = "office_chair";
+  std::string robot = "cobot";
+  TaskSetting setting = TaskSetting::kRandomRooms;
+  double room_size_m = 10.0;     ///< Of kRandomRooms: edge length, and
+  double room_density = 0.1;     ///< share of the floor under furniture.
+  double goal_distance_m = 4.0;  ///< Of kDiagonal.
+  int tasks = 20;
+  int case_bases = 4;  ///< Learnt anew, each with a seed of its own; tasks take turns.
+  std::uint64_t seed = 1;
+  LearningOptions learning;
+  PushRunOptions run;
+  std::optional<Load> load;  ///< On the object during the tasks, whatever it was learnt with.
+  int jobs = 1;              ///< Threads; the result does not depend on their number.
+
+  void validate() const;  ///< @throws InputError listing every violation.
+};
+
+/// One task of an experiment.
+struct TaskRun {
+  std::uint64_t seed = 0;
+  int case_base = 0;  ///< From 0.
+  PushRunResult result;
+};
+
+using TaskExperimentProgress = std::function<void(const char* what, int done, int count)>;
+
+/// A push problem of kDiagonal: an empty square room with walls, object and goal half of the
+/// distance from its middle.
+PushProblem diagonalProblem(const Catalog& catalog, const std::string& object,
+                            const std::string& robot, double distance_m, std::uint64_t seed);
+
+/// Learns and runs the tasks, each from its own seed: experiments with the same seed, object and
+/// setting run the same problems.
+/// @param progress  Told what is being done, and how many of how many are done; called by several
+///   threads, but by one at a time.
+/// @throws InputError from catalog, learning and rooms.
+std::vector<TaskRun> runTasks(const Catalog& catalog, const TaskExperimentOptions& options,
+                              const TaskExperimentProgress& progress = {});
+
+}  // namespace casepush

@@ -1,0 +1,83 @@
+#include "casepush/lab/task_experiment.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "casepush/common/input_error.h"
+
+namespace casepush {
+namespace {
+
+TaskExperimentOptions small() {
+  TaskExperimentOptions options;
+  options.setting = TaskSetting::kDiagonal;
+  options.goal_distance_m = 1.5;
+  options.tasks = 3;
+  options.case_bases = 2;
+  options.learning.exploration.cases = 8;
+  options.learning.exploration.practices = 4;
+  options.learning.lab.simulator.caster_model = CasterModel::kPlanar;
+  options.run.lab.simulator.caster_model = CasterModel::kPlanar;
+  options.run.task.plan_deadline_s = 60.0;
+  return options;
+}
+
+TEST(RunTasks, givesTheSameResultWithAnyNumberOfThreads) {
+  TaskExperimentOptions options = small();
+  const Catalog catalog = Catalog::standard();
+  const std::vector<TaskRun> one = runTasks(catalog, options);
+  options.jobs = 3;
+  int told = 0;
+  const std::vector<TaskRun> three =
+      runTasks(catalog, options, [&](const char*, int, int) { ++told; });
+  EXPECT_EQ(told, 5);
+  ASSERT_EQ(one.size(), 3U);
+  ASSERT_EQ(three.size(), 3U);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].seed, three[i].seed);
+    EXPECT_EQ(one[i].result.sim_time_s, three[i].result.sim_time_s);
+    EXPECT_EQ(one[i].result.position_error_m, three[i].result.position_error_m);
+  }
+}
+
+TEST(RunTasks, accountsForEveryPushAndReplan) {
+  for (const TaskRun& run : runTasks(Catalog::standard(), small())) {
+    const PushTaskProgress& progress = run.result.progress;
+    const std::vector<int>& rows = progress.pushes_per_plan;
+    EXPECT_EQ(std::accumulate(rows.begin(), rows.end(), 0), progress.pushes);
+    int causes = 0;
+    for (const auto& [cause, count] : progress.replan_causes) {
+      causes += count;
+    }
+    EXPECT_EQ(causes, progress.replans);
+    EXPECT_EQ(static_cast<int>(rows.size()), progress.replans + 1);
+  }
+}
+
+TEST(DiagonalProblem, hasTheDistanceAskedForAndRoomAround) {
+  const Catalog catalog = Catalog::standard();
+  for (int seed = 1; seed <= 20; ++seed) {
+    const PushProblem problem = diagonalProblem(catalog, "stretcher", "cobot", 4.0, seed);
+    const Pose2& start = problem.world.objects.front().map_T_object;
+    EXPECT_NEAR(distance(start, problem.map_T_goal), 4.0, 1e-9);
+    EXPECT_TRUE(problem.world.contains(problem.world.map_T_robot));
+    EXPECT_GT(distance(start, problem.world.map_T_robot), 1.0);
+  }
+}
+
+TEST(RunTasks, refusesBadOptions) {
+  TaskExperimentOptions options = small();
+  options.tasks = 0;
+  options.jobs = 0;
+  try {
+    runTasks(Catalog::standard(), options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("tasks is 0"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("jobs is 0"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace casepush
