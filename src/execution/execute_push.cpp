@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "approach_motion.h"
+#include "blocked_watch.h"
 #include "casepush/cases/outcome_statistics.h"
 #include "casepush/common/check.h"
 #include "casepush/common/violations.h"
@@ -17,6 +19,12 @@ namespace {
 // An object that stays within this has not been pushed: the scatter of its estimate.
 constexpr double kNotMovedM = 0.02;
 constexpr double kNotMovedRad = 0.05;
+
+std::string positionText(const Pose2& pose) {
+  char text[48];
+  std::snprintf(text, sizeof(text), "(%.1f m, %.1f m)", pose.x(), pose.y());
+  return text;
+}
 
 }  // namespace
 
@@ -35,6 +43,7 @@ void ExecutePushOptions::validate() const {
   violations.require("rest_timeout_s", rest_timeout_s, 0.1, 600.0);
   violations.require("approach_timeout_s", approach_timeout_s, 0.1, 3600.0);
   violations.require("stale_robot_s", stale_robot_s, 0.01, 2.0);
+  violations.require("blind_push_s", blind_push_s, 0.05, 60.0);
   violations.require("lost_object_s", lost_object_s, 0.1, 60.0);
   violations.require("alpha", alpha, 1e-9, 0.5);
   violations.require("tube.alpha", tube.alpha, 1e-12, 0.5);
@@ -84,6 +93,8 @@ struct ExecutePush::Data {
   ApproachMotion approach;
   CommandLimiter limiter;
   RobotWatch robot_watch;
+  BlockedWatch blocked;
+  Twist2 commanded;  ///< At the last tick.
   RestWatch rest;
   HoldWatch held;
   TickClock clock;
@@ -94,8 +105,8 @@ struct ExecutePush::Data {
   bool cancelled = false;
   std::optional<double> began_s;
   double now_s = 0.0;
-  double push_time_s = 0.0;           ///< Since the push began, without interruptions.
-  double push_end_s = 0.0;            ///< In push time: when the robot stopped.
+  double push_time_s = 0.0;  ///< Since the push began, without interruptions.
+  double push_end_s = 0.0;   ///< In push time: when the robot stopped.
   bool broken_off = false;
   std::optional<ObjectState> object;  ///< Last usable state.
   PushReport draft;
@@ -145,8 +156,7 @@ void ExecutePush::Data::conclude() {
   if (broken_off) {
     draft.test.rejected = true;
     draft.test.p_value = std::min(draft.test.p_value, tube->pValue());
-    finish(PushOutcome::kBrokenOff,
-           "broken off: " + object_id + " was " + tube->describe());
+    finish(PushOutcome::kBrokenOff, "broken off: " + object_id + " was " + tube->describe());
     return;
   }
   if (start_T_end.position().norm() < kNotMovedM && std::abs(start_T_end.yaw()) < kNotMovedRad) {
@@ -160,6 +170,11 @@ void ExecutePush::Data::conclude() {
 Twist2 ExecutePush::Data::approachTick(const Observation& observation, double dt_s) {
   if (now_s - *began_s > options.approach_timeout_s) {
     finish(PushOutcome::kTimeout, "the approach took too long: " + approach.describe());
+    return Twist2{};
+  }
+  if (blocked.isBlocked(observation, commanded)) {
+    finish(PushOutcome::kApproachFailed,
+           "something unknown holds the robot at " + positionText(observation.map_T_robot));
     return Twist2{};
   }
   const ApproachMotion::Step step = approach.step(observation, object ? &*object : nullptr, dt_s);
@@ -186,7 +201,8 @@ void ExecutePush::Data::beginPush(const Observation& observation) {
 Twist2 ExecutePush::Data::followPush(const Observation& observation) {
   const Reference reference{draft.map_T_start * trajectory.poseAt(push_time_s),
                             trajectory.actionAt(push_time_s)};
-  if (held.isHeld(push_time_s, distance(observation.map_T_robot, reference.map_T_reference))) {
+  if (blocked.isBlocked(observation, commanded) ||
+      held.isHeld(push_time_s, distance(observation.map_T_robot, reference.map_T_reference))) {
     finish(PushOutcome::kBlocked, "something holds the robot while it pushes " + object_id);
     return Twist2{};
   }
@@ -199,7 +215,7 @@ bool ExecutePush::Data::hasLeftTube() {
 }
 
 Twist2 ExecutePush::Data::pushTick(const Observation& observation) {
-  if (now_s - object->stamp_s > options.lost_object_s) {
+  if (now_s - object->stamp_s > options.blind_push_s) {
     finish(PushOutcome::kObjectLost, object_id + " was lost from sight during the push");
     return Twist2{};
   }
@@ -270,13 +286,15 @@ Tick ExecutePush::Data::run(const Observation& observation) {
     const Twist2 wanted = move(observation, *dt_s);
     const bool must_stand = phase == Phase::kRest || phase == Phase::kFinished;
     if (!must_stand) {
-      return {{limiter.limit(wanted, *dt_s)}, BehaviourStatus::kRunning};
+      commanded = limiter.limit(wanted, *dt_s);
+      return {{commanded}, BehaviourStatus::kRunning};
     }
   } else if (object && now_s - object->stamp_s > options.lost_object_s &&
              phase != Phase::kApproach) {
     finish(PushOutcome::kObjectLost, object_id + " was lost from sight");
   }
   limiter.stop();
+  commanded = Twist2{};
   return {};
 }
 

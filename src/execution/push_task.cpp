@@ -52,6 +52,7 @@ void PushTask::Data::measure(const Observation& observation) {
   if (const ObjectState* object = usableObject(observation, goal.object_id)) {
     progress.distance_to_goal_m = distance(object->map_T_object, goal.map_T_goal);
     progress.yaw_to_goal_rad = yawError(object->map_T_object, goal.map_T_goal);
+    last_seen = *object;
   }
 }
 
@@ -65,11 +66,27 @@ Tick PushTask::Data::look(const Observation& observation) {
     } else {
       requestPlan(observation, *object);
     }
+  } else if (!is_fresh && last_seen && searches < options.max_searches) {
+    ++searches;
+    search.emplace(*last_seen, robot, services.approach, options.search);
+    enter(Stage::kSearch, "search", search->describe(), observation.stamp_s);
   } else if (observation.stamp_s - stage_began_s > options.look_timeout_s) {
     const std::string why = is_fresh ? " does not come to rest" : " is not in sight";
     end(PushTaskStatus::kObjectLost, goal.object_id + why);
   }
   return {};
+}
+
+Tick PushTask::Data::searchOn(const Observation& observation) {
+  const Tick tick = search->tick(observation);
+  text = search->describe();
+  if (tick.status == BehaviourStatus::kSucceeded) {
+    rest.reset();
+    enter(Stage::kLook, "look", text, observation.stamp_s);
+  } else if (tick.status == BehaviourStatus::kFailed) {
+    end(PushTaskStatus::kObjectLost, text);
+  }
+  return {tick.command, BehaviourStatus::kRunning};
 }
 
 void PushTask::Data::requestPlan(const Observation& observation, const ObjectState& object) {
@@ -147,6 +164,8 @@ Tick PushTask::Data::step(const Observation& observation) {
   switch (stage) {
     case Stage::kLook:
       return look(observation);
+    case Stage::kSearch:
+      return searchOn(observation);
     case Stage::kPlan:
       return awaitPlan(observation);
     case Stage::kPush:

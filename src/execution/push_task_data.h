@@ -12,7 +12,7 @@ namespace casepush {
 /// What PushTask is made of: the stages are in push_task.cpp, what happens to a plan's pushes in
 /// push_task_pushes.cpp.
 struct PushTask::Data {
-  enum class Stage { kLook, kPlan, kPush, kDone };
+  enum class Stage { kLook, kSearch, kPlan, kPush, kDone };
 
   Data(PushTaskGoal push_goal, RobotModel robot_model, PushTaskServices outside,
        const PushTaskOptions& task_options);
@@ -35,6 +35,9 @@ struct PushTask::Data {
   std::optional<PushPlan> plan;  ///< Its first push is the next one.
   PlanRequest request;
   std::optional<ExecutePush> push;
+  std::optional<ObjectState> last_seen;
+  std::optional<ObjectSearch> search;
+  int searches = 0;
   int failed_plans = 0;
   int failed_approaches = 0;
   int plans_without_progress = 0;
@@ -43,6 +46,7 @@ struct PushTask::Data {
   Tick run(const Observation& observation);
   Tick step(const Observation& observation);
   Tick look(const Observation& observation);
+  Tick searchOn(const Observation& observation);
   Tick awaitPlan(const Observation& observation);
   Tick pushOn(const Observation& observation);
   void enter(Stage next, const char* phase, const std::string& what, double now_s);

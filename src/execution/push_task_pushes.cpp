@@ -92,11 +92,14 @@ void PushTask::Data::concludePush(const PushReport& report, const Observation& o
       judgeOutcome(report, observation);
       return;
     case PushOutcome::kApproachFailed:
+    case PushOutcome::kBlocked:
       if (++failed_approaches >= options.max_failed_plans) {
         end(PushTaskStatus::kNoProgress,
             "the robot can not get to the next push: " + report.explanation);
       } else {
-        replan(ReplanCause::kApproachFailed, report.explanation, observation);
+        replan(report.outcome == PushOutcome::kBlocked ? ReplanCause::kPushFailed
+                                                       : ReplanCause::kApproachFailed,
+               report.explanation, observation);
       }
       return;
     case PushOutcome::kRobotLost:
@@ -105,7 +108,6 @@ void PushTask::Data::concludePush(const PushReport& report, const Observation& o
     case PushOutcome::kObjectLost:
     case PushOutcome::kTimeout:
     case PushOutcome::kCancelled:
-    case PushOutcome::kBlocked:
       replan(ReplanCause::kPushFailed, report.explanation, observation);
       return;
   }

@@ -48,6 +48,7 @@ const char* toString(RestRule rule) {
 
 void PushTaskOptions::validate() const {
   push.validate();
+  search.validate();
   Violations violations;
   violations.require("max_replans", max_replans, 0, 100000);
   violations.require("max_pushes", max_pushes, 1, 100000);
@@ -56,6 +57,7 @@ void PushTaskOptions::validate() const {
   violations.require("max_plans_without_progress", max_plans_without_progress, 1, 100000);
   violations.require("plan_deadline_s", plan_deadline_s, 0.01, 3600.0);
   violations.require("look_timeout_s", look_timeout_s, 0.1, 3600.0);
+  violations.require("max_searches", max_searches, 0, 1000);
   violations.require("rest.least_share", rest.least_share, 0.0, 1.0);
   violations.require("rest.horizon", rest.horizon, 1, 100000);
   violations.require("goal_share", goal_share, 0.1, 1.0);

@@ -134,6 +134,7 @@ void readPush(ParameterReader& reader, ExecutePushOptions& options) {
   reader.read("push/rest_timeout", options.rest_timeout_s);
   reader.read("push/approach_timeout", options.approach_timeout_s);
   reader.read("push/stale_robot", options.stale_robot_s);
+  reader.read("push/blind_push", options.blind_push_s);
   reader.read("push/lost_object", options.lost_object_s);
   reader.read("push/alpha", options.alpha);
   std::string test = toString(options.test);
@@ -153,6 +154,13 @@ void readTask(ParameterReader& reader, PushTaskOptions& options) {
   reader.read("task/horizon", options.rest.horizon, 1, 100000);
   reader.read("task/plan_deadline", options.plan_deadline_s);
   reader.read("task/look_timeout", options.look_timeout_s);
+  reader.read("task/max_searches", options.max_searches, 0, 1000);
+  reader.read("task/search/wait", options.search.wait_s);
+  reader.read("task/search/look", options.search.look_s);
+  reader.read("task/search/near", options.search.near_m);
+  reader.read("task/search/far", options.search.far_m);
+  reader.read("task/search/speed", options.search.speed_mps);
+  reader.read("task/search/time_limit", options.search.time_limit_s);
   reader.check([&] { options.validate(); });
 }
 

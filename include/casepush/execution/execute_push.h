@@ -60,7 +60,7 @@ const char* toString(OutcomeTest test);
 /// When a replayed push is broken off because the object leaves the course that the case says (its
 /// tube): for `hold_s` it is outside of the tube at every time within `slack_s` of now.
 struct TubeWatchOptions {
-  bool on = false;  ///< Practices go on to the end, whatever happens.
+  bool on = false;         ///< Practices go on to the end, whatever happens.
   double alpha = 1e-4;     ///< Outside: a pose so far off is rarer than this,
   double least_m = 0.06;   ///< and it is off by more than this
   double least_rad = 0.2;  ///< or that.
@@ -81,14 +81,15 @@ struct ExecutePushOptions {
   double rest_time_s = 0.4;
   double rest_timeout_s = 15.0;
   double approach_timeout_s = 120.0;
-  double stale_robot_s = 0.2;  ///< Age of the robot's pose above which it stops.
-  double lost_object_s = 1.0;  ///< Age of the object's pose above which a push is abandoned.
-  double alpha = 0.01;         ///< Of the prediction test.
+  double stale_robot_s = 0.15;  ///< Age of the robot's pose above which it stops.
+  double blind_push_s = 0.3;    ///< Age of the object's pose above which a push is broken off,
+  double lost_object_s = 1.0;   ///< and above which nobody waits for it to come to rest.
+  double alpha = 0.01;          ///< Of the prediction test.
   OutcomeTest test = OutcomeTest::kHotelling;
   TubeWatchOptions tube;
-  double blocked_m = 0.2;    ///< The robot is blocked if it is so far from where it should be
-  double blocked_s = 0.3;    ///< during the push, for so long.
-  void validate() const;       ///< @throws InputError listing every violation.
+  double blocked_m = 0.2;  ///< The robot is blocked if it is so far from where it should be
+  double blocked_s = 0.3;  ///< during the push, for so long.
+  void validate() const;   ///< @throws InputError listing every violation.
 };
 
 /// True if the pushed object came to rest where it was seen, so that the push tells something about

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "casepush/execution/execute_push.h"
+#include "casepush/execution/object_search.h"
 #include "casepush/execution/replan_cause.h"
 #include "casepush/model/push_plan.h"
 
@@ -59,6 +60,7 @@ struct RestOptions {
 struct PushTaskOptions {
   ExecutePushOptions push;
   bool break_off = true;  ///< Switches push.tube on.
+  ObjectSearchOptions search;
   RestOptions rest;
   int max_replans = 60;
   int max_pushes = 200;
@@ -67,6 +69,7 @@ struct PushTaskOptions {
   int max_plans_without_progress = 25;  ///< Plans in a row, none shorter than the best before.
   double plan_deadline_s = 10.0;        ///< Wall time for one plan.
   double look_timeout_s = 10.0;         ///< Wait for the object to be seen at rest.
+  int max_searches = 5;                 ///< For an object that went out of sight, in all.
   double goal_share = 0.9;              ///< Of the goal's tolerance, that plans aim at.
   double goal_margin_m = 0.01;       ///< Least distance of the observed pose from the tolerance's
   double goal_margin_rad = 0.01745;  ///< bounds; more if its covariance says so (2 sigma).
@@ -75,7 +78,8 @@ struct PushTaskOptions {
 
 /// Numbers of a task, kept up to date while it runs.
 struct PushTaskProgress {
-  std::string phase;    ///< "look", "planning", "approach", "dock", "push", "rest" or "done".
+  /// "look", "search", "planning", "approach", "dock", "push", "rest" or "done".
+  std::string phase;
   int push_index = 0;   ///< Of the current plan, from 1.
   int push_count = 0;   ///< Of the current plan.
   int pushes = 0;       ///< Executed in all.
@@ -111,7 +115,8 @@ struct PushTaskServices {
 
 /// Brings one object to a goal: plan, approach, push, wait, test, go on or re-plan (paper 3.3).
 ///
-/// Looks until the object is seen at rest, asks for a plan, and executes it push by push. After
+/// Looks until the object is seen at rest, asks for a plan, and executes it push by push. An object
+/// that was seen before and is out of sight is searched (ObjectSearch). After
 /// each push it goes on with the plan, re-anchored at the observed pose and with the cases as
 /// adapted by then, unless its next pushes would collide or it would end too far from the goal
 /// (RestOptions); then it plans anew. A push whose object leaves its expected course is broken off.

@@ -34,8 +34,8 @@ struct SimulatorOptions {
   double step_s = 1.0 / 240.0;
   int solver_iterations = 30;
   CasterModel caster_model = CasterModel::kFeatherstone;
-  bool sensor_noise = true;         ///< False: every sensor of the robot is exact.
-  double command_timeout_s = 0.25;  ///< The base stops when commands cease for this long.
+  bool sensor_noise = true;        ///< False: every sensor of the robot is exact.
+  double command_timeout_s = 0.2;  ///< The base stops when commands cease for this long.
   /// By object id: on it at the start, in the place of what the world puts there.
   std::map<std::string, Load> loads;
   void validate() const;  ///< @throws InputError listing every violation.

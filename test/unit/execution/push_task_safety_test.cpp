@@ -66,6 +66,35 @@ TEST_F(PushTaskSafetyTest, looksAgainWhenTheObjectIsLostDuringAPush) {
       << push_task.describe();
 }
 
+TEST_F(PushTaskSafetyTest, findsAnObjectThatWasMovedOutOfSightAndGoesOn) {
+  PushTask push_task = task();
+  ASSERT_TRUE(runUntil(push_task, "push"));
+  world.object = Pose2(-1.0, 1.4, 1.0);
+  world.object_visible = false;
+  bool searched = false;
+  const auto hide = [&](const Observation&, const Tick&) {
+    searched = searched || push_task.progress().phase == "search";
+    world.object_visible = searched && (world.object_visible || world.robot.y() > 0.6);
+  };
+  EXPECT_EQ(test::run(push_task, world, 900.0, hide), BehaviourStatus::kSucceeded)
+      << push_task.describe();
+  EXPECT_EQ(push_task.status(), PushTaskStatus::kSucceeded);
+  EXPECT_TRUE(searched);
+}
+
+TEST_F(PushTaskSafetyTest, givesUpAnObjectThatIsNowhereToBeSeen) {
+  PushTask push_task = task();
+  ASSERT_TRUE(runUntil(push_task, "push"));
+  world.object_visible = false;
+  const double lost_s = world.now_s;
+  EXPECT_EQ(test::run(push_task, world, 900.0), BehaviourStatus::kFailed);
+  EXPECT_EQ(push_task.status(), PushTaskStatus::kObjectLost);
+  EXPECT_NE(push_task.describe().find("chair_1 is not in sight, looked for from"),
+            std::string::npos)
+      << push_task.describe();
+  EXPECT_LT(world.now_s - lost_s, options.search.time_limit_s + 2.0);
+}
+
 TEST_F(PushTaskSafetyTest, stopsAndFailsWhenTheRobotIsLost) {
   for (const char* phase : {"look", "planning", "push"}) {
     world = FakeWorld(1);

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""In the middle of a task detections drop out, transforms freeze and clocks jump."""
+
+import sys
+
+import rospy
+import rostest
+
+import drill
+import harness
+from casepush.msg import PushObjectResult
+
+
+class DrillSensesTest(drill.Drill):
+
+    def test_half_of_the_detections_drop_out(self):
+        self.relay.drop_share = 0.5
+        self.start_task()
+        result = self.finish_task()
+        self.assertEqual(result.status, PushObjectResult.SUCCEEDED, result.explanation)
+
+    def test_transforms_freeze(self):
+        self.start_task()
+        self.wait_phase("approach")
+        self.wait_moving()
+        self.relay.tf_frozen = True
+        result = self.finish_task()
+        self.assertEqual(result.status, PushObjectResult.ROBOT_LOST, result.explanation)
+
+    def test_transforms_freeze_for_a_second(self):
+        self.start_task()
+        self.wait_phase("push")
+        self.relay.tf_frozen = True
+        frozen_s = self.now()
+        harness.wait_until(lambda: self.now() > frozen_s + 1.0, what="a second")
+        self.relay.tf_frozen = False
+        result = self.finish_task()
+        self.assertEqual(result.status, PushObjectResult.SUCCEEDED, result.explanation)
+
+    def test_clock_jumps_forwards(self):
+        self.start_task()
+        self.wait_phase("push")
+        self.relay.jump(30.0)
+        result = self.finish_task()
+        self.assertEqual(result.status, PushObjectResult.SUCCEEDED, result.explanation)
+
+    def test_clock_jumps_backwards(self):
+        self.start_task()
+        self.wait_phase("push")
+        self.relay.jump(-8.0)
+        result = self.finish_task()
+        self.assertEqual(result.status, PushObjectResult.STOPPED, result.explanation)
+        self.assertEqual(result.explanation, "time jumped back")
+
+
+if __name__ == "__main__":
+    rospy.init_node("drill_senses_test")
+    rostest.rosrun("casepush", "drill_senses", DrillSensesTest, sys.argv)

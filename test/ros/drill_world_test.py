@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""The world changes in the middle of a task: somebody moves the chair, bars the way, sits down."""
+
+import math
+import sys
+
+import rospy
+import rostest
+from geometry_msgs.msg import Point
+
+import drill
+import harness
+from casepush.msg import ObjectLoad, PushObjectResult
+from casepush.srv import SetLoad
+
+
+class DrillWorldTest(drill.Drill):
+
+    def test_somebody_moves_the_chair(self):
+        self.start_task()
+        self.wait_phase("push")
+        self.place(chair_1=(-0.3, -1.0, 1.0))
+        result = self.finish_task()
+        self.assertEqual(result.status, PushObjectResult.SUCCEEDED, result.explanation)
+
+    def test_something_unknown_bars_the_way(self):
+        self.place(robot=(-4.0, 0.3, 0.0))
+        self.start_task()
+        self.wait_phase("approach")
+        self.bar_the_way()
+        result = self.finish_task()
+        held = [m for _, m in self.reports.all() if "holds the robot" in m.explanation]
+        self.assertTrue(held, "the robot did not meet the box")
+        if result.status != PushObjectResult.SUCCEEDED:
+            self.assertEqual(result.status, PushObjectResult.NO_PROGRESS, result.explanation)
+            self.assertIn("holds the robot", result.explanation)
+
+    def test_somebody_sits_down(self):
+        self.start_task()
+        self.wait_phase("push")
+        set_load = rospy.ServiceProxy("sim/set_load", SetLoad)
+        load = ObjectLoad(id=harness.OBJECT, mass=40.0, centre=Point(0.0, 0.0, 0.0))
+        answer = set_load(load)
+        self.assertTrue(answer.success, answer.message)
+        try:
+            result = self.finish_task()
+        finally:
+            load.mass = 0.0
+            set_load(load)
+        print("RESULT load", result)
+
+
+if __name__ == "__main__":
+    rospy.init_node("drill_world_test")
+    rostest.rosrun("casepush", "drill_world", DrillWorldTest, sys.argv)

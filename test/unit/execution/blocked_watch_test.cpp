@@ -1,0 +1,63 @@
+#include "../../../src/execution/blocked_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace casepush {
+namespace {
+
+constexpr double kTickS = 0.02;
+
+class BlockedWatchTest : public testing::Test {
+ protected:
+  // Lets time go on; the base does `share` of what it is told. Returns when the watch first says
+  // that it is blocked, or -1.
+  double drive(const Twist2& commanded, double share, double duration_s) {
+    for (double t_s = 0.0; t_s < duration_s; t_s += kTickS) {
+      const bool blocked = watch_.isBlocked(observation_, commanded);
+      if (blocked) {
+        return t_s;
+      }
+      observation_.stamp_s += kTickS;
+      observation_.map_T_robot =
+          observation_.map_T_robot *
+          expSe2(share * kTickS *
+                 Eigen::Vector3d(commanded.vx_mps, commanded.vy_mps, commanded.wz_rps));
+    }
+    return -1.0;
+  }
+
+  BlockedWatch watch_;
+  Observation observation_;
+};
+
+TEST_F(BlockedWatchTest, saysSoWithinAFifthOfASecond) {
+  for (const Twist2& commanded :
+       {Twist2{0.5, 0.0, 0.0}, Twist2{0.0, -0.15, 0.0}, Twist2{0.0, 0.0, 1.0}}) {
+    EXPECT_LT(drive(commanded, 1.0, 1.0), 0.0);
+    const double after_s = drive(commanded, 0.0, 1.0);
+    EXPECT_GT(after_s, 0.1);
+    EXPECT_LE(after_s, 0.22);
+    watch_.reset();
+  }
+}
+
+TEST_F(BlockedWatchTest, isPatientWithAHeavyLoadAndASlowStart) {
+  EXPECT_LT(drive({0.3, 0.0, 0.0}, 0.3, 2.0), 0.0);
+  EXPECT_LT(drive({0.3, 0.0, 0.0}, 0.0, 0.08), 0.0);
+  EXPECT_LT(drive({0.3, 0.0, 0.0}, 0.5, 1.0), 0.0);
+}
+
+TEST_F(BlockedWatchTest, aRobotThatShouldStandIsNotBlocked) {
+  EXPECT_LT(drive(Twist2{}, 0.0, 1.0), 0.0);
+  // The last millimetres beside an object.
+  EXPECT_LT(drive({0.05, 0.0, 0.0}, 0.0, 1.0), 0.0);
+}
+
+TEST_F(BlockedWatchTest, knowsNothingOfTimeThatItHasNotSeen) {
+  EXPECT_LT(drive({0.5, 0.0, 0.0}, 0.0, 0.18), 0.0);
+  observation_.stamp_s += 5.0;
+  EXPECT_GT(drive({0.5, 0.0, 0.0}, 0.0, 1.0), 0.15);
+}
+
+}  // namespace
+}  // namespace casepush
