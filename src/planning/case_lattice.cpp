@@ -49,6 +49,11 @@ class Lattice {
       const double least_s = problem.handling_s + push_case.duration_s;
       best_turn_rate_rps_ = std::max(best_turn_rate_rps_, turn_rad / least_s);
     }
+    drift_s_.assign(problem.cases.size(), 0.0);
+    for (std::size_t push = 0; problem.risk != nullptr && push < drift_s_.size(); ++push) {
+      drift_s_[push] = problem.risk->options().recovery_s *
+                       problem.risk->expectedReplans(static_cast<int>(push), problem.tolerance);
+    }
     add({problem.map_T_start, -1, -1, 0.0, 0.0});
   }
 
@@ -220,7 +225,7 @@ class Lattice {
       const double step_s = node.push < 0 ? problem_.time.first(object_T_robot, push)
                                           : problem_.time.after(node.push, push);
       const Pose2 to = node.map_T_object * problem_.cases[push].start_outcome.mean;
-      const double cost_s = node.cost_s + step_s;
+      const double cost_s = node.cost_s + step_s + drift_s_[push];
       const double remaining_s = remaining(to);
       if (cost_s + remaining_s < bestCost()) wait({0.0, cost_s, remaining_s, -1, id, push});
     }
@@ -231,6 +236,7 @@ class Lattice {
   const OriginDistance& map_;
   const Ban& is_banned_;
   double best_turn_rate_rps_ = 0.0;
+  std::vector<double> drift_s_;  ///< Of each case: expected re-plans, see PushRisk.
   int round_ = 0;
   double weight_ = 1.0;
   int goal_ = -1;  ///< The cheapest node in the goal region.

@@ -206,6 +206,14 @@ double PushRisk::missProbability(int push, const Pose2& map_T_start,
   return 1.0 - goalProbability(pose, map_T_goal, tolerance);
 }
 
+double PushRisk::expectedReplans(int push, const GoalTolerance& tolerance) const {
+  const Eigen::Matrix3d& covariance = stops_[push].back().covariance;
+  const double shifts =
+      covariance.topLeftCorner<2, 2>().trace() / (tolerance.position_m * tolerance.position_m);
+  const double turns = covariance(2, 2) / (tolerance.yaw_rad * tolerance.yaw_rad);
+  return std::min(1.0, shifts + turns);
+}
+
 void assessPlan(const PushRisk& risk, const std::vector<int>& pushes, PushPlan* plan) {
   std::vector<int> before;  // The last one first.
   double sum = 0.0;

@@ -43,6 +43,11 @@ class PushRisk {
                          const Eigen::Matrix3d& start_covariance, const Pose2& map_T_goal,
                          const GoalTolerance& tolerance) const;
 
+  /// How much nearer the push's own scatter brings the moment when the rest of a plan misses its
+  /// goal: deviations add up as in a random walk, which leaves a disc of radius r after r^2 /
+  /// (variance of a step) steps on average, and likewise for the heading.
+  double expectedReplans(int push, const GoalTolerance& tolerance) const;
+
   const RiskOptions& options() const { return options_; }
 
   static constexpr int kDirections = 32;

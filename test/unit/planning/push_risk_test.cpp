@@ -113,6 +113,25 @@ TEST_F(PushRiskTest, missesTheGoalAsTheScatterSays) {
   EXPECT_GT(risk_->missProbability(0, start, known, end * Pose2(0.4, 0, 0), tolerance), 0.99);
 }
 
+TEST_F(PushRiskTest, expectsReplansAsARandomWalkLeavesTheTolerance) {
+  SyntheticPushOptions options;
+  options.position_sigma_m = 0.02;
+  options.yaw_sigma_rad = 1e-9;
+  setUp(emptyRoom(), {syntheticPush(1, 0.0, 2.0, 0.0, options)});
+  const GoalTolerance tolerance;
+  int steps = 0;
+  constexpr int kWalks = 2000;
+  for (int walk = 0; walk < kWalks; ++walk) {
+    for (Eigen::Vector2d at(0.0, 0.0); at.norm() < tolerance.position_m; ++steps) {
+      at += Eigen::Vector2d(random_.normal(0.02), random_.normal(0.02));
+    }
+  }
+  // Discrete steps overshoot the border: they need a little more.
+  const double drawn = static_cast<double>(kWalks) / steps;
+  EXPECT_NEAR(risk_->expectedReplans(0, tolerance), 1.0 / 50.0, 1e-6);
+  EXPECT_NEAR(drawn, 1.0 / 50.0, 0.15 / 50.0);
+}
+
 TEST_F(PushRiskTest, endsEarlyBeyondTheLimit) {
   setUp(furnishedRoom(), syntheticPushes(6, 5));
   for (int k = 0; k < 300; ++k) {
