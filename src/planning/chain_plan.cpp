@@ -69,11 +69,11 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
   }
   ApproachVerifier approaches(problem, checker->collisions());
   std::vector<Ban> banned;
-  const auto stop = [&clock, &made] {
+  const auto stop = [&clock, &made, &safety] {
     clock.report(made.nodes, std::numeric_limits<double>::infinity());
-    return clock.isOver();
+    return clock.isOver(safety.deadline_share);
   };
-  for (int attempt = 0; attempt < kAttempts && !clock.isOver(); ++attempt) {
+  for (int attempt = 0; attempt < kAttempts && !stop(); ++attempt) {
     const ChainProblem chain{cases,
                              time,
                              *checker,
@@ -94,7 +94,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
                                           : searchWithOmpl(problem.options.planner, chain, stop);
     made.nodes += result.nodes;
     if (!result.found) {
-      made.end = clock.isOver()     ? PlanSearch::End::kStopped
+      made.end = stop()             ? PlanSearch::End::kStopped
                  : result.exhausted ? PlanSearch::End::kExhausted
                                     : PlanSearch::End::kNodeLimit;
       return made;
@@ -120,7 +120,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
     return made;
   }
   made.approach_problem = approaches.problem();
-  made.end = clock.isOver() ? PlanSearch::End::kStopped : PlanSearch::End::kExhausted;
+  made.end = stop() ? PlanSearch::End::kStopped : PlanSearch::End::kExhausted;
   return made;
 }
 

@@ -292,7 +292,7 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
       result.expected_s = outcome.expected_s;
       return result;
     }
-    if (outcome.end == PlanSearch::End::kStopped) {
+    if (outcome.end == PlanSearch::End::kStopped && clock.isOver()) {
       const bool cancelled = clock.isCancelled();
       result.status = cancelled ? PlanStatus::kCancelled : PlanStatus::kDeadline;
       result.explanation = cancelled ? "cancelled while planning"

@@ -234,6 +234,9 @@ std::vector<SafetyLevel> safetyLevels(const RiskOptions& options, double zeta) {
     for (const double level : {0.1, 0.2, 0.5, 1.0}) {
       if (level > options.max_collision_probability) levels.push_back({0.0, level});
     }
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+      levels[i].deadline_share = 1.0 - 0.5 * std::pow(0.6, static_cast<double>(i));
+    }
     return levels;
   }
   levels.push_back({zeta, {}});

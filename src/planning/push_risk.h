@@ -94,6 +94,7 @@ class PushRisk {
 struct SafetyLevel {
   double zeta = 0.0;
   std::optional<double> max_collision_probability;
+  double deadline_share = 1.0;  ///< Of the time until the deadline, when to try the next level.
 };
 
 /// Sets the collision probability of each push and of the plan.

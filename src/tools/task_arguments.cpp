@@ -71,6 +71,12 @@ void addPlannerOptions(CLI::App& command, PlannerArguments& arguments) {
       ->check(finiteIn(1e-6, 1.0))
       ->capture_default_str();
   command
+      .add_option("--recovery-time", options.recovery_s,
+                  "With --risk chance: seconds that a push costs that does not work out; the more, "
+                  "the more precise pushes are preferred")
+      ->check(finiteIn(0.0, 3600.0))
+      ->capture_default_str();
+  command
       .add_option("--risk-horizon", options.horizon,
                   "With --risk chance: pushes whose scatter adds up before the plan is corrected")
       ->check(CLI::Range(1, 1000))

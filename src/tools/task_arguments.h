@@ -31,7 +31,7 @@ struct PlannerArguments {
   RiskOptions risk_options;
 };
 
-/// --planner, --risk, --max-collision-probability and --risk-horizon.
+/// --planner, --risk, --max-collision-probability, --recovery-time and --risk-horizon.
 void addPlannerOptions(CLI::App& command, PlannerArguments& arguments);
 
 /// @throws InputError if there is no such planner, or it knows no chance constraints.
