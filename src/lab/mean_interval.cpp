@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "casepush/common/check.h"
+#include "casepush/common/random.h"
 
 namespace casepush {
 namespace {
@@ -35,6 +36,23 @@ MeanInterval meanInterval(const std::vector<double>& values) {
   interval.low = interval.mean - half;
   interval.high = interval.mean + half;
   return interval;
+}
+
+MeanInterval bootstrapInterval(const std::vector<double>& values, std::uint64_t seed) {
+  CASEPUSH_CHECK(!values.empty(), "no values");
+  constexpr int kResamples = 4000;
+  Random random = Random::stream(seed, "bootstrap");
+  const double n = static_cast<double>(values.size());
+  std::vector<double> means(kResamples, 0.0);
+  for (double& mean : means) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      mean += values[random.below(values.size())] / n;
+    }
+  }
+  std::sort(means.begin(), means.end());
+  constexpr int kTail = kResamples / 40;  // 2.5 %
+  return {std::accumulate(values.begin(), values.end(), 0.0) / n, means[kTail],
+          means[kResamples - 1 - kTail]};
 }
 
 }  // namespace casepush

@@ -194,6 +194,7 @@ void addExperimentCommand(CLI::App& app, Run& run) {
   addCoverage(*command, run);
   addTransfer(*command, run);
   addTaskExperiments(*command, run);
+  addUncertaintyExperiment(*command, run);
 }
 
 }  // namespace casepush

@@ -1,16 +1,21 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace casepush {
 
-/// Mean of a sample with its 95 % confidence interval (Student's t).
+/// Mean of a sample with its 95 % confidence interval.
 struct MeanInterval {
   double mean = 0.0;
   double low = 0.0;
   double high = 0.0;
 };
-/// For one value the interval is that value. @pre values is not empty.
+/// By Student's t. For one value the interval is that value. @pre values is not empty.
 MeanInterval meanInterval(const std::vector<double>& values);
+
+/// The interval by the percentiles of 4000 resamples (bootstrap), for whatever distribution.
+/// @pre values is not empty.
+MeanInterval bootstrapInterval(const std::vector<double>& values, std::uint64_t seed);
 
 }  // namespace casepush

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "casepush/common/random.h"
+
 namespace casepush {
 namespace {
 
@@ -17,6 +19,23 @@ TEST(MeanInterval, isTheValueItselfForOne) {
   const MeanInterval interval = meanInterval({0.7});
   EXPECT_EQ(interval.low, 0.7);
   EXPECT_EQ(interval.high, 0.7);
+}
+
+TEST(BootstrapInterval, isStudentsForManyNormalValues) {
+  Random random(1);
+  std::vector<double> values;
+  for (int i = 0; i < 200; ++i) values.push_back(3.0 + random.normal(2.0));
+  const MeanInterval student = meanInterval(values);
+  const MeanInterval bootstrap = bootstrapInterval(values, 1);
+  EXPECT_DOUBLE_EQ(bootstrap.mean, student.mean);
+  EXPECT_NEAR(bootstrap.low, student.low, 0.03);
+  EXPECT_NEAR(bootstrap.high, student.high, 0.03);
+  EXPECT_EQ(bootstrapInterval(values, 1).low, bootstrap.low);
+}
+
+TEST(BootstrapInterval, isTheValueItselfForOne) {
+  EXPECT_EQ(bootstrapInterval({0.7}, 1).low, 0.7);
+  EXPECT_EQ(bootstrapInterval({0.7}, 1).high, 0.7);
 }
 
 }  // namespace
