@@ -112,7 +112,6 @@ int runRows(const TaskExperimentArguments& arguments, const std::vector<Row>& ro
                {"rest_rule", arguments.rest_rule},
                {"rest_share", arguments.experiment.run.task.rest.least_share},
                {"horizon", arguments.experiment.run.task.rest.horizon},
-               {"plan_share", arguments.experiment.run.task.plan_share},
                {"replan_when_rejected", arguments.replan_when_rejected},
                {"test", arguments.test},
                {"alpha", arguments.experiment.run.task.push.alpha},
