@@ -25,6 +25,7 @@ add_service_files(FILES
   ExportCases.srv
   ImportCases.srv
   Reset.srv
+  SaveMap.srv
   SetLoad.srv
   SetPoses.srv
   StartDemonstration.srv

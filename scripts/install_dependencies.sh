@@ -9,8 +9,8 @@ packages="
   libboost-dev libbullet-dev libcli11-dev libeigen3-dev libfcl-dev libgtest-dev liboctomap-dev
   libompl-dev librapidcheck-dev libsqlite3-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
   python3 python3-jinja2 python3-matplotlib python3-numpy python3-pil python3-pytest
-  python3-nav-msgs python3-rosbag python3-rostest python3-std-srvs python3-visualization-msgs
-  python3-yaml
+  python3-diagnostic-msgs python3-nav-msgs python3-rosbag python3-rostest python3-std-srvs
+  python3-visualization-msgs python3-yaml
 "
 
 if ! command -v apt-get >/dev/null 2>&1; then

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -73,12 +74,16 @@ sensor_msgs::PointCloud2 toMessage(const RangeScan& scan) {
   return cloud(scan.points, scan.layers, rangeFrame(scan.sensor), scan.stamp_s);
 }
 
-std::vector<Eigen::Vector3f> fromMessage(const sensor_msgs::PointCloud2& message) {
+RangeScan scanFromMessage(const sensor_msgs::PointCloud2& message) {
   checkSize(message);
   const std::uint32_t offsets[] = {fieldOffset(message, "x"), fieldOffset(message, "y"),
                                    fieldOffset(message, "z")};
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(std::size_t{message.width} * message.height);
+  RangeScan scan{message.header.frame_id,
+                 message.header.stamp.toSec(),
+                 static_cast<int>(message.height),
+                 static_cast<int>(message.width),
+                 {}};
+  scan.points.reserve(std::size_t{message.width} * message.height);
   for (std::uint32_t row = 0; row < message.height; ++row) {
     for (std::uint32_t column = 0; column < message.width; ++column) {
       const std::uint8_t* start = message.data.data() + std::size_t{row} * message.row_step +
@@ -87,12 +92,32 @@ std::vector<Eigen::Vector3f> fromMessage(const sensor_msgs::PointCloud2& message
       for (int axis = 0; axis < 3; ++axis) {
         std::memcpy(&point[axis], start + offsets[axis], sizeof(float));
       }
-      if (point.allFinite()) {
-        points.push_back(point);
-      }
+      scan.points.push_back(point);
     }
   }
+  return scan;
+}
+
+std::vector<Eigen::Vector3f> fromMessage(const sensor_msgs::PointCloud2& message) {
+  std::vector<Eigen::Vector3f> points = scanFromMessage(message).points;
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [](const Eigen::Vector3f& point) { return !point.allFinite(); }),
+               points.end());
   return points;
+}
+
+OccupancyGrid fromMessage(const nav_msgs::OccupancyGrid& message) {
+  const Eigen::Isometry3d origin = fromMessage(message.info.origin);
+  if (origin.linear()(2, 2) < 0.999 || std::abs(origin.translation().z()) > 0.01) {
+    throw InputError("topic map", "its origin is tilted or off the floor");
+  }
+  OccupancyGrid grid;
+  grid.width = static_cast<int>(std::min<std::uint32_t>(message.info.width, 1U << 30));
+  grid.height = static_cast<int>(std::min<std::uint32_t>(message.info.height, 1U << 30));
+  grid.resolution_m = message.info.resolution;
+  grid.map_T_grid = planarPose(origin);
+  grid.cells.assign(message.data.begin(), message.data.end());
+  return grid;
 }
 
 Octomap toMessage(const Map& map, double stamp_s) {

@@ -7,6 +7,7 @@
 
 #include "casepush/common/input_error.h"
 #include "casepush/world/static_map.h"
+#include "map_parameters.h"
 
 namespace casepush {
 namespace {
@@ -106,7 +107,10 @@ void readTracker(ParameterReader& reader, PoseTrackerOptions& options) {
 }
 
 void readPlanner(ParameterReader& reader, PushPlannerOptions& options) {
-  std::string similarity = "metric";
+  std::string kind = toString(options.planner);
+  reader.read("planner/kind", kind);
+  reader.check([&] { options = PushPlannerOptions::forPlanner(plannerKind(kind)); });
+  std::string similarity = options.similarity == Similarity::kPaper ? "paper" : "metric";
   reader.read("planner/similarity", similarity, {"metric", "paper"});
   options.similarity = similarity == "paper" ? Similarity::kPaper : Similarity::kMetric;
   reader.read("planner/goal_bias", options.goal_bias);
@@ -225,7 +229,6 @@ Pose2 parsePose(const std::string& text, const std::string& key) {
   return Pose2(x_m, y_m, yaw_deg * kDegree);
 }
 
-/// Id of the instance that an object name means: its id, its model or its model's file.
 }  // namespace
 
 const TrackedObject* Furnishing::instance(const std::string& id) const {
@@ -279,8 +282,7 @@ PlannerNodeParameters loadPlannerNodeParameters(ParameterReader reader, const Ca
   PlannerNodeParameters parameters;
   parameters.furnishing = readFurnishing(reader, catalog);
   readPlanner(reader, parameters.planner);
-  reader.read("map_file", parameters.map_file);
-  reader.read("map_resolution", parameters.map_resolution_m, 0.01, 0.5);
+  readMapParameters(reader, parameters.map);
   reader.finish();
   return parameters;
 }

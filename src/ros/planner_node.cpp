@@ -2,7 +2,6 @@
 
 #include <tf2/exceptions.h>
 
-#include <chrono>
 #include <utility>
 
 #include "casepush/common/input_error.h"
@@ -34,9 +33,6 @@ PlannerNode::PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handl
           handle, names::kPlanPushAction,
           [this](const PlanPushGoalConstPtr& goal) { onGoal(goal); }, false),
       diagnostics_(handle, "planner", [this](auto& status) { reportDiagnostics(status); }) {
-  octomap_ = handle_.advertise<Octomap>(names::kOctomap.name, names::kOctomap.queue_size, true);
-  map_markers_ =
-      handle_.advertise<MarkerArray>(names::kMapMarkers.name, names::kMapMarkers.queue_size, true);
   plan_ = handle_.advertise<Plan>(names::kPlan.name, names::kPlan.queue_size, true);
   plan_markers_ = handle_.advertise<MarkerArray>(names::kPlanMarkers.name,
                                                  names::kPlanMarkers.queue_size, true);
@@ -46,36 +42,39 @@ PlannerNode::PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handl
       handle_.subscribe(names::kCases.name, names::kCases.queue_size, &PlannerNode::onCases, this);
   objects_subscriber_ = handle_.subscribe(names::kObjects.name, 1, &PlannerNode::onObjects, this,
                                           ros::TransportHints().tcpNoDelay());
-  if (parameters_.map_file.empty()) {
-    survey_subscriber_ = handle_.subscribe(names::kSurvey.name, names::kSurvey.queue_size,
-                                           &PlannerNode::onSurvey, this);
-  } else {
-    setMap(Map::load(parameters_.map_file));
-  }
+  maps_ = std::make_unique<MapSource>(
+      parameters_.map, parameters_.furnishing, handle_, buffer_,
+      [this](std::shared_ptr<const Map> map) { setMap(std::move(map)); });
   server_.start();
 }
 
-void PlannerNode::onSurvey(const sensor_msgs::PointCloud2& message) {
-  try {
-    if (message.header.frame_id != names::kMapFrame) {
-      throw InputError("survey", "is in frame '" + message.header.frame_id + "', must be in map");
-    }
-    Map map(parameters_.map_resolution_m);
-    map.addSurvey(fromMessage(message));
-    setMap(std::move(map));
-  } catch (const InputError& error) {
-    ROS_ERROR("no map: %s", error.what());
-  }
+void PlannerNode::setMap(std::shared_ptr<const Map> map) {
+  const PushPlannerOptions& options = parameters_.planner;
+  auto planner = std::make_shared<const PushPlanner>(map, parameters_.furnishing.robot,
+                                                     parameters_.furnishing.models, options);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  map_ = std::move(map);
+  planners_ = {{options.planner, std::move(planner)}};
 }
 
-void PlannerNode::setMap(Map map) {
-  const auto shared = std::make_shared<const Map>(std::move(map));
-  const auto planner = std::make_shared<const PushPlanner>(
-      shared, parameters_.furnishing.robot, parameters_.furnishing.models, parameters_.planner);
-  octomap_.publish(toMessage(*shared, ros::Time::now().toSec()));
-  map_markers_.publish(mapMarkers(*shared));
+std::shared_ptr<const PushPlanner> PlannerNode::plannerFor(const std::string& kind) {
+  PushPlannerOptions options = parameters_.planner;
+  if (!kind.empty() && plannerKind(kind) != options.planner) {
+    const PushPlannerOptions preset = PushPlannerOptions::forPlanner(plannerKind(kind));
+    options.planner = preset.planner;
+    options.similarity = preset.similarity;
+    options.goal_bias = preset.goal_bias;
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
-  planner_ = planner;
+  if (map_ == nullptr) {
+    return nullptr;
+  }
+  std::shared_ptr<const PushPlanner>& planner = planners_[options.planner];
+  if (planner == nullptr) {
+    planner = std::make_shared<const PushPlanner>(map_, parameters_.furnishing.robot,
+                                                  parameters_.furnishing.models, options);
+  }
+  return planner;
 }
 
 void PlannerNode::onCases(const PushCaseArray& message) {
@@ -110,31 +109,30 @@ PlanRequest PlannerNode::request(const PlanPushGoal& goal) {
 }
 
 PlanResult PlannerNode::plan(const PlanPushGoal& goal) {
-  std::shared_ptr<const PushPlanner> planner;
+  const std::shared_ptr<const PushPlanner> planner = plannerFor(goal.planner);
+  if (planner == nullptr) {
+    return invalid("there is no map yet (" + maps_->missing() + ")");
+  }
   std::vector<Case> cases;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    planner = planner_;
     cases = cases_;
   }
-  if (planner == nullptr) {
-    return invalid("there is no map yet (topic survey, or parameter map_file)");
-  }
   const PlanRequest complete = request(goal);
-  const auto start = std::chrono::steady_clock::now();
   double next_feedback_s = 0.0;
-  const auto stop = [&] {
-    const double elapsed_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (elapsed_s >= next_feedback_s) {
-      PlanPushFeedback feedback;
-      feedback.elapsed = elapsed_s;
-      server_.publishFeedback(feedback);
-      next_feedback_s = elapsed_s + kFeedbackPeriodS;
+  const auto report = [&](const PlanProgress& progress) {
+    if (progress.elapsed_s < next_feedback_s) {
+      return;
     }
-    return server_.isPreemptRequested() || !ros::ok();
+    next_feedback_s = progress.elapsed_s + kFeedbackPeriodS;
+    PlanPushFeedback feedback;
+    feedback.elapsed = progress.elapsed_s;
+    feedback.nodes = static_cast<std::uint32_t>(progress.nodes);
+    feedback.best_cost = progress.best_cost_s;
+    server_.publishFeedback(feedback);
   };
-  PlanResult result = planner->plan(complete, cases, stop);
+  const auto stop = [this] { return server_.isPreemptRequested() || !ros::ok(); };
+  PlanResult result = planner->plan(complete, cases, stop, report);
   show(result, cases);
   return result;
 }
@@ -177,7 +175,7 @@ void PlannerNode::show(const PlanResult& result, const std::vector<Case>& cases)
 
 void PlannerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (planner_ == nullptr) {
+  if (map_ == nullptr) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no map yet");
   } else if (cases_.empty()) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no cases yet");
@@ -188,6 +186,7 @@ void PlannerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper&
   status.add("cases", cases_.size());
   status.add("last plan", last_result_.explanation);
   status.add("last planning time [s]", last_result_.planning_s);
+  maps_->report(status);
 }
 
 }  // namespace casepush

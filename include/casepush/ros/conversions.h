@@ -11,6 +11,7 @@
 #include <geometry_msgs/Pose2D.h>
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/time.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -24,6 +25,7 @@
 #include "casepush/model/tag_detection.h"
 #include "casepush/sim/simulator.h"
 #include "casepush/world/map.h"
+#include "casepush/world/occupancy_grid.h"
 
 /// Geometry, sensors and maps between ROS messages and the core. `fromMessage` throws InputError on
 /// numbers that are not finite and on quaternions that are not of unit length.
@@ -83,6 +85,11 @@ sensor_msgs::PointCloud2 toMessage(const RangeScan& scan);
 /// Points that are not finite are left out.
 /// @throws InputError if there are no x, y, z fields of type float32, or the sizes disagree.
 std::vector<Eigen::Vector3f> fromMessage(const sensor_msgs::PointCloud2& message);
+/// The same with all points, rows as layers, and the frame's name as the sensor's.
+RangeScan scanFromMessage(const sensor_msgs::PointCloud2& message);
+
+/// @throws InputError if the origin is tilted or off the floor.
+OccupancyGrid fromMessage(const nav_msgs::OccupancyGrid& message);
 
 Octomap toMessage(const Map& map, double stamp_s);
 /// @throws InputError if it is not a binary OcTree.

@@ -17,6 +17,7 @@ constexpr Topic kOdometry{"odom", 10};
 constexpr Topic kTagDetections{"tag_detections", 100};
 constexpr Topic kPoints{"points", 10};
 constexpr Topic kSurvey{"survey", 1};  ///< Latched.
+constexpr Topic kGrid{"map", 1};       ///< Latched.
 constexpr Topic kCommandVelocity{"cmd_vel", 1};
 
 // A person who drives.
@@ -50,6 +51,7 @@ constexpr const char* kSetPoseService = "sim/set_pose";
 constexpr const char* kSetLoadService = "sim/set_load";
 constexpr const char* kStepService = "sim/step";
 constexpr const char* kStopService = "stop";
+constexpr const char* kSaveMapService = "save_map";
 constexpr const char* kExportCasesService = "cases/export";
 constexpr const char* kImportCasesService = "cases/import";
 constexpr const char* kStartDemonstrationService = "demonstration/start";

@@ -14,6 +14,8 @@
 #include "casepush/planning/push_planner.h"
 #include "casepush/ros/parameter_reader.h"
 #include "casepush/sim/simulator.h"
+#include "casepush/world/live_map.h"
+#include "casepush/world/occupancy_grid.h"
 
 /// Parameters of each node. The loaders throw one InputError that lists every violation.
 namespace casepush {
@@ -46,11 +48,27 @@ struct PerceptionNodeParameters {
   bool publish_camera_frames = false;  ///< Static TF of the robot's cameras, if nobody else does.
 };
 
+/// What a map starts from: a file, the topic `survey` or `map`, or nothing but scans.
+enum class MapOrigin { kFile, kSurvey, kGrid, kNone };
+
+struct MapParameters {
+  MapOrigin source = MapOrigin::kSurvey;
+  std::string file;                    ///< See loadMap().
+  std::optional<double> resolution_m;  ///< Of a map that is made, not loaded.
+  OccupancyOptions occupancy;          ///< For floor plans.
+  bool live_map = false;               ///< Integrate the topic `points`.
+  LiveMapOptions live;
+  double live_rate_hz = 4.0;           ///< Scans used at most, by wall time.
+  double live_max_delay_s = 1.0;       ///< Older scans are dropped.
+  double live_publish_period_s = 2.0;  ///< Between changes of the planner's map, by wall time.
+
+  double resolution() const { return resolution_m.value_or(0.05); }
+};
+
 struct PlannerNodeParameters {
   Furnishing furnishing;
   PushPlannerOptions planner;
-  std::string map_file;  ///< .bt or .ot; empty: wait for the topic `survey`.
-  double map_resolution_m = 0.05;
+  MapParameters map;
 };
 
 struct ExecutorNodeParameters {

@@ -5,16 +5,17 @@
 #include <casepush/PushCaseArray.h>
 #include <casepush/PushableObjectArray.h>
 #include <ros/ros.h>
-#include <sensor_msgs/PointCloud2.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "casepush/planning/push_planner.h"
 #include "casepush/ros/diagnostics.h"
+#include "casepush/ros/map_source.h"
 #include "casepush/ros/node_parameters.h"
 
 namespace casepush {
@@ -30,14 +31,16 @@ class PlannerNode {
  private:
   using Server = actionlib::SimpleActionServer<PlanPushAction>;
 
-  void onSurvey(const sensor_msgs::PointCloud2& message);
   void onCases(const PushCaseArray& message);
   void onObjects(const PushableObjectArray& message);
   void onGoal(const PlanPushGoalConstPtr& goal);
-  void setMap(Map map);
+  void setMap(std::shared_ptr<const Map> map);
 
   /// Completes a goal: goal pose in the map frame, current state unless it is given.
   PlanRequest request(const PlanPushGoal& goal);
+  /// Of the kind that a goal asks for, on the newest map; nullptr without a map.
+  /// @throws InputError if there is no planner of that name.
+  std::shared_ptr<const PushPlanner> plannerFor(const std::string& kind);
   PlanResult plan(const PlanPushGoal& goal);
   void show(const PlanResult& result, const std::vector<Case>& cases);
   void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -48,20 +51,19 @@ class PlannerNode {
   tf2_ros::TransformListener listener_;
 
   std::mutex mutex_;  ///< Guards what the callbacks write and the action's thread reads.
-  std::shared_ptr<const PushPlanner> planner_;
+  std::shared_ptr<const Map> map_;
+  std::map<PlannerKind, std::shared_ptr<const PushPlanner>> planners_;  ///< On that map.
   std::vector<Case> cases_;
   PushableObjectArray objects_;
   PlanResult last_result_;
   std::uint32_t plan_count_ = 0;
 
-  ros::Publisher octomap_;
-  ros::Publisher map_markers_;
   ros::Publisher plan_;
   ros::Publisher plan_markers_;
   ros::Publisher tree_markers_;
-  ros::Subscriber survey_subscriber_;
   ros::Subscriber cases_subscriber_;
   ros::Subscriber objects_subscriber_;
+  std::unique_ptr<MapSource> maps_;
   Server server_;
   Diagnostics diagnostics_;  ///< Last: its timer uses the members above.
 };

@@ -208,6 +208,30 @@ TEST(Conversions, scansBecomeOrganisedClouds) {
   const std::vector<Eigen::Vector3f> points = fromMessage(message);
   ASSERT_EQ(points.size(), 5U);
   EXPECT_EQ(points[2], Eigen::Vector3f(7, 8, 9));
+  const RangeScan back = scanFromMessage(message);
+  EXPECT_EQ(back.layers, 2);
+  EXPECT_EQ(back.beams, 3);
+  EXPECT_DOUBLE_EQ(back.stamp_s, 2.5);
+  ASSERT_EQ(back.points.size(), 6U);
+  EXPECT_FALSE(back.points[1].allFinite());
+  EXPECT_EQ(back.points[3], Eigen::Vector3f(7, 8, 9));
+}
+
+TEST(Conversions, floorPlansKeepCellsAndOrigin) {
+  nav_msgs::OccupancyGrid message;
+  message.info.width = 2;
+  message.info.height = 1;
+  message.info.resolution = 0.5F;
+  message.info.origin = toPoseMessage(Pose2(1.0, 2.0, 0.3));
+  message.data = {100, -1};
+  const OccupancyGrid grid = fromMessage(message);
+  EXPECT_EQ(grid.width, 2);
+  EXPECT_EQ(grid.height, 1);
+  EXPECT_DOUBLE_EQ(grid.resolution_m, 0.5);
+  EXPECT_NEAR(grid.map_T_grid.yaw(), 0.3, 1e-9);
+  EXPECT_EQ(grid.cells, (std::vector<std::int8_t>{100, -1}));
+  message.info.origin.position.z = 1.0;
+  EXPECT_THROW(fromMessage(message), InputError);
 }
 
 TEST(Conversions, loadsKeepWhatIsGivenAndLeaveOpenWhatIsZero) {

@@ -129,6 +129,29 @@ TEST(NodeParameters, boundsOfTheCoreApply) {
   EXPECT_TRUE(contains(text, "goal_bias")) << text;
 }
 
+TEST(NodeParameters, mapsComeFromOneSource) {
+  const auto load = [](const XmlRpcValue& values) {
+    return loadPlannerNodeParameters(ParameterReader(values, "node"), Catalog::standard()).map;
+  };
+  XmlRpcValue values = office();
+  EXPECT_EQ(load(values).source, MapOrigin::kSurvey);
+  values["map_source"] = std::string("map");
+  EXPECT_EQ(load(values).source, MapOrigin::kGrid);
+  values["map_source"] = std::string("none");
+  EXPECT_TRUE(contains(problems(loadPlannerNodeParameters, values), "needs live_map"));
+  values["live_map"] = true;
+  EXPECT_EQ(load(values).source, MapOrigin::kNone);
+  values["map_file"] = std::string("x.bt");
+  EXPECT_TRUE(contains(problems(loadPlannerNodeParameters, values), "left out if map_file"));
+  values["map_source"] = std::string("");
+  EXPECT_EQ(load(values).source, MapOrigin::kFile);
+  EXPECT_FALSE(load(values).resolution_m.has_value());
+  values["map_resolution"] = 0.1;
+  EXPECT_EQ(load(values).resolution_m, 0.1);
+  values["live"]["max_range"] = -1.0;
+  EXPECT_TRUE(contains(problems(loadPlannerNodeParameters, values), "max_range_m"));
+}
+
 TEST(NodeParameters, demoTakesGoalsInDegrees) {
   XmlRpcValue values = office();
   values["goal"] = std::string("1 2 90");
