@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include "casepush/model/observation.h"
 
@@ -14,15 +15,18 @@ class BlockedWatch {
   /// @param commanded  What the base was told at the last tick, in the robot frame.
   bool isBlocked(const Observation& observation, const Twist2& commanded);
 
-  void reset() { past_.clear(); }
+  void reset();
 
  private:
+  bool hardlyMoves() const;
+
   struct Sample {
     double stamp_s;
     Pose2 map_T_robot;
-    double commanded_m;  ///< Travel that was asked for since the first sample; a turn counts too.
+    Pose2 commanded;  ///< Where commands would have brought it since the first tick.
   };
   std::deque<Sample> past_;  ///< Oldest first; the first is as old as the time looked at, or older.
+  std::optional<double> held_since_s_;
 };
 
 }  // namespace casepush

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace casepush {
 namespace {
 
@@ -51,6 +53,21 @@ TEST_F(BlockedWatchTest, aRobotThatShouldStandIsNotBlocked) {
   EXPECT_LT(drive(Twist2{}, 0.0, 1.0), 0.0);
   // The last millimetres beside an object.
   EXPECT_LT(drive({0.05, 0.0, 0.0}, 0.0, 1.0), 0.0);
+}
+
+TEST_F(BlockedWatchTest, aRobotThatTurnsBackIsNotBlocked) {
+  // Forth and back at 0.8 m/s^2, with a base that lags behind by a tenth of a second.
+  double commanded_mps = 0.0;
+  double actual_mps = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    const double wanted_mps = (i / 50) % 2 == 0 ? 0.3 : -0.3;
+    const double change_mps = 0.8 * kTickS;
+    commanded_mps += std::clamp(wanted_mps - commanded_mps, -change_mps, change_mps);
+    actual_mps += kTickS / 0.1 * (commanded_mps - actual_mps);
+    observation_.stamp_s += kTickS;
+    observation_.map_T_robot = observation_.map_T_robot * Pose2(kTickS * actual_mps, 0.0, 0.0);
+    EXPECT_FALSE(watch_.isBlocked(observation_, {commanded_mps, 0.0, 0.0})) << "tick " << i;
+  }
 }
 
 TEST_F(BlockedWatchTest, knowsNothingOfTimeThatItHasNotSeen) {

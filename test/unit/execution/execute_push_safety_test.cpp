@@ -95,7 +95,8 @@ TEST(ExecutePushSafety, failsAtOnceWhenSomethingHoldsTheRobotOnItsWay) {
     const double held_s = world.now_s;
     EXPECT_EQ(test::run(push, world, 10.0), BehaviourStatus::kFailed);
     EXPECT_EQ(push.report()->outcome, PushOutcome::kApproachFailed);
-    EXPECT_LT(world.now_s - held_s, 0.25);
+    // The slower the robot, the longer until it should have moved further than poses are off.
+    EXPECT_LT(world.now_s - held_s, phase == Phase::kApproach ? 0.25 : 0.8);
     EXPECT_NE(push.describe().find("something unknown holds the robot at (-"), std::string::npos)
         << push.describe();
   }
