@@ -132,6 +132,7 @@ TEST_F(PushTaskSafetyTest, triesOtherPlansWhenTheRobotCanNotApproach) {
 TEST_F(PushTaskSafetyTest, givesUpAfterItsLimits) {
   world.object_fixed = true;
   options.max_replans = 3;
+  options.max_idle_pushes = 100;
   PushTask few_plans = task();
   EXPECT_EQ(test::run(few_plans, world, 900.0), BehaviourStatus::kFailed);
   EXPECT_EQ(few_plans.status(), PushTaskStatus::kNoProgress);
