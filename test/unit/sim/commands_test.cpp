@@ -51,9 +51,9 @@ TEST_P(SimulatorModels, areIgnoredIfTheyAreNotFinite) {
   EXPECT_FALSE(simulator.setCommand({kNan, 0.0, 0.0}));
   EXPECT_FALSE(simulator.setCommand({0.0, kInfinity, 0.0}));
   EXPECT_FALSE(simulator.setCommand({0.0, 0.0, -kInfinity}));
-  simulator.step(30);
+  simulator.step(15);
   EXPECT_NEAR(simulator.odometry().robot_twist.vx_mps, 0.3, 0.01);
-  simulator.step(30);  // They do not prolong the good one.
+  simulator.step(45);  // They do not prolong the good one.
   EXPECT_LT(simulator.odometry().robot_twist.speed(), 1e-6);
 }
 
