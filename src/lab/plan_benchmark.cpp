@@ -1,6 +1,8 @@
 #include "casepush/lab/plan_benchmark.h"
 
 #include <algorithm>
+#include <ctime>
+#include <iomanip>
 #include <map>
 #include <memory>
 
@@ -32,21 +34,10 @@ PlanRun run(const PushPlanner& planner, const PlanRequest& request,
   return run;
 }
 
-}  // namespace
-
-void PlanBenchmarkOptions::validate() const {
-  Violations violations;
-  violations.require("problems", problems, 1, 10000);
-  violations.require("deadline", deadline_s, 0.01, 3600.0);
-  violations.require("planners", static_cast<double>(planners.size()), 1, 100);
-  violations.throwIfAny("plan benchmark");
-}
-
-PlanBenchmark comparePlanners(const Catalog& catalog, const std::vector<Case>& cases,
-                              const PlanBenchmarkOptions& options,
-                              const std::function<void(int)>& progress) {
-  options.validate();
-  const WorldModel world = loadWorld(catalog, options.world);
+// All on one map.
+std::vector<std::unique_ptr<PushPlanner>> plannersIn(const Catalog& catalog,
+                                                     const WorldModel& world,
+                                                     const PlanBenchmarkOptions& options) {
   const std::shared_ptr<const Map> map = surveyMap(world);
   std::map<std::string, ObjectModel> models;
   const auto add = [&](const std::string& name) {
@@ -60,41 +51,72 @@ PlanBenchmark comparePlanners(const Catalog& catalog, const std::vector<Case>& c
     planners.push_back(std::make_unique<PushPlanner>(map, catalog.robot(world.robot), models,
                                                      optionsFor(kind, options.improve)));
   }
+  return planners;
+}
+
+}  // namespace
+
+void PlanBenchmarkOptions::validate() const {
+  Violations violations;
+  violations.require("problems", problems, 1, 10000);
+  violations.require("deadline", deadline_s, 0.01, 3600.0);
+  violations.require("worlds", static_cast<double>(worlds.size()), 1, 100);
+  violations.require("planners", static_cast<double>(planners.size()), 1, 100);
+  violations.throwIfAny("plan benchmark");
+}
+
+PlanBenchmark comparePlanners(const Catalog& catalog, const std::vector<Case>& cases,
+                              const PlanBenchmarkOptions& options,
+                              const std::function<void(int)>& progress) {
+  options.validate();
   PlanBenchmark benchmark;
   benchmark.planners = options.planners;
-  benchmark.runs.resize(planners.size());
-  for (int i = 0; i < options.problems; ++i) {
-    if (progress) progress(i);
-    const std::uint64_t seed = options.seed * 100000 + static_cast<std::uint64_t>(i);
-    const PushProblem problem = randomProblem(catalog, world, options.object, seed);
-    const PlanRequest request = requestFor(catalog, problem, seed, options.deadline_s);
-    for (std::size_t k = 0; k < planners.size(); ++k) {
-      run(*planners[k], request, cases);  // Makes the masks.
-      benchmark.runs[k].push_back(run(*planners[k], request, cases));
+  benchmark.runs.resize(options.planners.size());
+  int done = 0;
+  for (const std::string& name : options.worlds) {
+    const WorldModel world = loadWorld(catalog, name);
+    const auto planners = plannersIn(catalog, world, options);
+    for (int i = 0; i < options.problems; ++i) {
+      if (progress) progress(done++);
+      const std::uint64_t seed = options.seed * 100000 + static_cast<std::uint64_t>(i);
+      const PushProblem problem = randomProblem(catalog, world, options.object, seed);
+      const PlanRequest request = requestFor(catalog, problem, seed, options.deadline_s);
+      for (std::size_t k = 0; k < planners.size(); ++k) {
+        run(*planners[k], request, cases);  // Makes the masks.
+        benchmark.runs[k].push_back(run(*planners[k], request, cases));
+        benchmark.runs[k].back().world = name;
+      }
     }
   }
   return benchmark;
 }
 
+// The order of the lines and their words are those of ompl::tools::Benchmark in version 1.5.2.
 void writeOmplLog(const PlanBenchmark& benchmark, const PlanBenchmarkOptions& options,
-                  std::ostream& out) {
-  out << "OMPL version 1.5.2\nExperiment " << options.object << "_in_" << options.world
-      << "\nRunning on this computer\nStarting at 2000-Jan-01 00:00:00\n"
-      << "<<<|\nRandom start and goal poses, one problem for each run, seed " << options.seed
-      << "\n|>>>\n<<<|\nunknown CPU\n|>>>\n"
+                  std::int64_t started_s, std::ostream& out) {
+  std::string name = options.object;
+  for (const std::string& world : options.worlds) name += "_" + world;
+  const std::time_t started = started_s;
+  std::tm utc{};
+  gmtime_r(&started, &utc);
+  out << "OMPL version 1.5.2\nExperiment " << name << "\nRunning on casepush\nStarting at "
+      << std::put_time(&utc, "%Y-%m-%d %H:%M:%S") << "\n<<<|\nRandom start and goal poses, "
+      << options.problems << " in each world, one for each run\n|>>>\n"
+      << "<<<|\nnot recorded\n|>>>\n"
       << options.seed << " is the random seed\n"
       << options.deadline_s << " seconds per run\n0 MB per run\n"
       << benchmark.runs.front().size() << " runs per planner\n0 seconds spent to collect the data\n"
       << "0 enum types\n"
       << benchmark.planners.size() << " planners\n";
   for (std::size_t k = 0; k < benchmark.planners.size(); ++k) {
-    out << toString(benchmark.planners[k]) << "\n0 common properties\n5 properties for each run\n"
+    out << "casepush_" << toString(benchmark.planners[k])
+        << "\n0 common properties\n5 properties for each run\n"
         << "solved BOOLEAN\ntime REAL\nsolution segments INTEGER\nsolution length REAL\n"
         << "graph states INTEGER\n"
         << benchmark.runs[k].size() << " runs\n";
     for (const PlanRun& each : benchmark.runs[k]) {
       out << (each.solved ? 1 : 0) << "; " << each.planning_s << "; " << each.pushes << "; "
-          << each.length_m << "; " << each.nodes << ";\n";
+          << each.length_m << "; " << each.nodes << "; \n";
     }
     out << ".\n";
   }

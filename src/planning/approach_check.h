@@ -1,10 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "casepush/planning/prepared_cases.h"
@@ -35,43 +38,63 @@ class ApproachLibrary {
   ApproachLibrary(const CollisionChecker& map, const RobotModel& robot, const ObjectModels& objects,
                   const RobotPathOptions& options);
 
-  /// The straight ways of a robot that leaves the object after a push, and that docks for one, if
-  /// nothing but the object stands around.
+  /// Straight ways of a robot that leaves the object after a push, and that docks for one, past
+  /// nothing but the object: their ends in the object's frame, the nearest first.
   struct Ways {
-    bool known = false;  ///< False if there is no such way.
-    Pose2 object_T_undocked;
-    Pose2 object_T_predock;
+    std::vector<Pose2> object_T_undocked;
+    std::vector<Pose2> object_T_predock;
   };
-  Ways ways(const std::string& model, const PreparedCase& push_case);
+  std::shared_ptr<const Ways> ways(const std::string& model, const PreparedCase& push_case);
   const ObjectClearance& clearance(const std::string& model);
 
+  /// Does the robot get straight from where `previous` left it to the start of `next`?
+  bool isDirect(const std::string& model, const PreparedCase& previous, const PreparedCase& next);
+
+  /// Visits ends of straight ways away from `start`, among the checker's map and obstacles, the
+  /// nearest first, until `visit` says false.
+  void waysOut(const CollisionChecker& checker, const Pose2& start,
+               const std::function<bool(const Pose2&)>& visit) const;
+
+  /// Cells that a flood has visited, and in which round.
+  struct Flood {
+    std::vector<std::uint32_t> visited;
+    std::uint32_t round = 0;
+    std::vector<std::pair<double, int>> ahead;  // cells to go on from, the nearest to the end first
+    std::vector<std::pair<double, int>> back;
+  };
+  std::unique_ptr<Flood> borrowFlood();
+  void giveBack(std::unique_ptr<Flood> flood);
+
+  const Solid& solid(const std::string& model) const { return objects_.at(model).solid; }
   const ClearanceGrid& grid() const { return grid_; }
   const Footprint& docking() const { return *docking_; }
   double minClearance() const { return min_clearance_m_; }
 
  private:
-  Pose2 farther(const CollisionChecker& checker, const Pose2& docked, const Pose2& apart) const;
-  Ways findWays(const std::string& model, const PreparedCase& push_case) const;
+  Ways findWays(const std::string& model, const PreparedCase& push_case);
 
   const ObjectModels& objects_;
   std::vector<TravelDisc> discs_;
   ClearanceGrid grid_;
   std::shared_ptr<const Footprint> docking_;
-  RobotPathPlanner paths_;
+  std::shared_ptr<const Footprint> plain_;
   CollisionChecker open_;
   double min_clearance_m_;
   std::mutex mutex_;
   std::map<std::string, std::unique_ptr<ObjectClearance>> clearances_;
-  std::unordered_map<std::string, Ways> ways_;  // by model and the poses that matter
+  std::unordered_map<std::string, std::shared_ptr<const Ways>> ways_;  // by model and poses
+  std::unordered_map<std::string, bool> direct_;
+  std::vector<std::unique_ptr<Flood>> floods_;
 };
 
 /// A quick check whether the robot can get to a push: sufficient, not necessary. What it cannot
 /// decide is left to RobotPathPlanner, which then finds the very way or knows that there is none.
 class ApproachCheck {
  public:
-  /// @param checker  With the obstacles, without the object to be pushed.
+  /// @param checker  With the obstacles, without the object to be pushed. Both outlive this.
   ApproachCheck(ApproachLibrary* library, const CollisionChecker& checker,
                 const std::vector<PlacedObject>& obstacles);
+  ~ApproachCheck();
 
   /// From where `previous` left the robot to the start of `next`, with the object in between.
   bool canFollow(const PlacedObject& object, const PreparedCase& previous,
@@ -81,23 +104,46 @@ class ApproachCheck {
   bool canReach(const PlacedObject& object, const Pose2& map_T_robot, const PreparedCase& next);
 
  private:
-  struct Window {
-    int x0, y0, x1, y1;  // cells, all inclusive
+  struct Standing {
+    const ObjectClearance* clearance;
+    Pose2 map_T_object;
+    double cosine;
+    double sine;
+
+    float at(const Eigen::Vector2d& point_m) const;
   };
 
-  Window stamp(const ObjectClearance& clearance, const Pose2& map_T_object);
-  void restore(const Window& window);
+  using Ends = std::vector<Eigen::Vector2d>;
+
+  /// Cells reached from one side.
+  struct Front {
+    std::uint32_t round;
+    std::uint32_t other_round;
+    Eigen::Vector2d towards;
+    std::vector<std::pair<double, int>>& open;
+  };
+
+  static Standing standing(const ObjectClearance& clearance, const Pose2& map_T_object);
+  float clearanceAround(int cell) const;  ///< Among map and obstacles.
+  float clearanceAt(int cell) const;      ///< And beside the object that is pushed.
   bool isFreeLine(const Pose2& from, const Pose2& to) const;
   bool canTravelAt(const Eigen::Vector2d& point) const;
-  bool connects(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  bool connects(const Ends& from, const Ends& to, int most_cells);
+  bool begin(const Ends& ends, Front& front);
+  bool advance(Front& front);
+  bool visit(int cell, Front& front);
+  Ends freeEnds(const Pose2& map_T_object, const Pose2& docked,
+                const std::vector<Pose2>& ends) const;
+  const Ends& waysFrom(const PlacedObject& object, const Pose2& map_T_robot);
 
   ApproachLibrary& library_;
   const CollisionChecker& checker_;
-  std::vector<float> standing_;  // clearance among map and obstacles
-  std::vector<float> current_;   // with the object, too, while a push is checked
-  std::vector<std::uint32_t> visited_;
-  std::uint32_t round_ = 0;
-  std::vector<int> front_;
+  std::vector<Standing> obstacles_;
+  std::optional<Standing> object_;  // the one that is pushed, where it now stands
+  std::unique_ptr<ApproachLibrary::Flood> flood_;
+  // Of the last robot pose that canReach() was asked for.
+  std::optional<std::pair<Pose2, Pose2>> begun_;
+  Ends begun_ends_;
 };
 
 }  // namespace casepush

@@ -47,10 +47,15 @@ PushPlan makePlan(const SearchProblem& problem, const std::vector<PreparedCase>&
 ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
                     const SearchClock& clock) {
   const PlanRequest& request = problem.request;
-  const std::vector<PreparedCase> cases = prepareFor(problem, *checker, safety.zeta);
-  const PushRisk risk(problem.cases, cases, checker, problem.options.risk);
-  const PushTime time(cases, problem.options.time);
   ChainPlan made;
+  made.end = PlanSearch::End::kStopped;
+  const std::shared_ptr<const CaseSet> set = caseSetFor(problem, *checker, safety.zeta, clock);
+  if (set == nullptr) return made;
+  const std::vector<PreparedCase>& cases = set->cases;
+  const PushTime& time = set->time;
+  std::vector<Case> recorded;
+  for (const Case* const push_case : problem.cases) recorded.push_back(*push_case);
+  const PushRisk risk(recorded, cases, checker, problem.options.risk);
   const bool is_lattice = problem.options.planner == PlannerKind::kLattice;
   const OriginDistance map(checker->collisions().columns(), problem.object.solid,
                            request.map_T_goal.position(), request.tolerance.position_m,
@@ -90,8 +95,12 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
     const auto is_banned = [&banned](const Pose2& pose, int previous, int push) {
       return std::find(banned.begin(), banned.end(), Ban{pose, previous, push}) != banned.end();
     };
-    const ChainResult result = is_lattice ? searchLattice(chain, lattice, map, is_banned, stop)
-                                          : searchWithOmpl(problem.options.planner, chain, stop);
+    const ChainResult result =
+        is_lattice
+            ? searchLattice(chain, lattice, map, is_banned, stop)
+            : searchWithOmpl(problem.options.planner, chain, [&clock, &stop](double reserve_s) {
+                return stop() || clock.isOver(1.0, reserve_s);
+              });
     made.nodes += result.nodes;
     if (!result.found) {
       made.end = stop()             ? PlanSearch::End::kStopped

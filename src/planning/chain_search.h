@@ -41,8 +41,9 @@ struct ChainResult {
 
 /// One of OMPL's stock control planners with the case as the control. Its random numbers are
 /// OMPL's: only the first seed of a process counts.
+/// @param is_over  Is there no more than so much time left [s]?
 ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
-                           const std::function<bool()>& stop);
+                           const std::function<bool(double)>& is_over);
 
 struct LatticeOptions {
   double cell_m = 0.1;  ///< Of the position; the yaw's is cell_m / gyration radius.

@@ -54,18 +54,19 @@ double PushGoal::distanceGoal(const ob::State* state) const {
 void PushGoal::sampleGoal(ob::State* state) const { setState(map_T_goal_, state); }
 
 ExpRrt::ExpRrt(const ob::SpaceInformationPtr& space, PushChecker* checker,
-               std::vector<PreparedCase> cases, const PushTime& time, const Pose2& object_T_robot,
-               const ExpRrtOptions& options)
+               std::shared_ptr<const CaseSet> cases, const GoalGuide* guide,
+               const Pose2& object_T_robot, CanApproach can_approach, const ExpRrtOptions& options)
     : Planner(space, "ExpRrt"),
       checker_(checker),
-      cases_(std::move(cases)),
-      time_(time),
+      set_(std::move(cases)),
+      guide_(guide),
       object_T_robot_(object_T_robot),
+      can_approach_(std::move(can_approach)),
       options_(options),
       min_m_(bound(space, true)),
       max_m_(bound(space, false)),
       tree_(min_m_, max_m_, options.gyration_radius_m, options.spacing_m,
-            static_cast<int>(cases_.size())),
+            static_cast<int>(set_->cases.size())),
       random_(Random::stream(options.seed, "exp_rrt")),
       best_cost_s_(kInfinity) {
   specs_.approximateSolutions = false;
@@ -84,7 +85,8 @@ void ExpRrt::clear() {
   tree_.clear();
   random_ = Random::stream(options_.seed, "exp_rrt");
   solutions_.clear();
-  promising_ = {};
+  edges_ = {};
+  is_approached_.clear();
   best_cost_s_ = kInfinity;
   extension_count_ = 0;
   freeDataStates();
@@ -92,13 +94,15 @@ void ExpRrt::clear() {
 
 ob::PlannerStatus ExpRrt::solve(const ob::PlannerTerminationCondition& stop) {
   checkValidity();
+  stop_ = &stop;
   if (goal_ == nullptr) {
     return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   }
+  const std::size_t known = solutions_.size();
   if (!start()) {
     return ob::PlannerStatus::INVALID_START;
   }
-  Growth growth = Growth::kNothing;
+  Growth growth = solutions_.size() > known ? Growth::kSolution : Growth::kNothing;
   while (growth == Growth::kNothing && !stop) {
     growth = grow();
   }
@@ -115,11 +119,13 @@ bool ExpRrt::start() {
     root.map_T_object = poseOf(state);
     const bool is_goal = goal_->isSatisfied(state);
     const int id = tree_.add(root, !is_goal);
+    is_approached_.resize(tree_.size(), true);
     if (is_goal) {
       solutions_.push_back(id);
       best_cost_s_ = 0.0;
     } else if (id >= 0) {
-      notePromise(id);
+      noteBestEdge(id);
+      connect(id);
     }
   }
   return tree_.size() > 0;
@@ -129,15 +135,48 @@ ExpRrt::Growth ExpRrt::grow() {
   if (tree_.size() >= options_.max_nodes) {
     return Growth::kExhausted;
   }
+  ++extension_count_;
+  work_ = 0;
   const Target target = sample();
-  const int node = select(target);
+  if (options_.similarity == Similarity::kMetric) {
+    return target.is_goal ? growToGoal() : growToSample(target.pose);
+  }
+  const int node = selectMostSimilar(target.pose);
   if (node < 0) {
     return Growth::kExhausted;
   }
-  ++extension_count_;
-  const int push = options_.similarity == Similarity::kPaper ? chooseCaseChecked(node, target.pose)
-                                                             : chooseCase(node, target);
+  const int push = isReachable(node) ? chooseCaseChecked(node, target.pose) : -1;
   return push < 0 ? Growth::kNothing : extend(node, push);
+}
+
+ExpRrt::Growth ExpRrt::growToGoal() {
+  if (edges_.empty()) {
+    noteAllEdges();  // Somebody may have stopped before all were noted.
+  }
+  const std::optional<Edge> edge = chooseEdge();
+  if (!edge) {
+    return tree_.openIds().empty() ? Growth::kExhausted : Growth::kNothing;
+  }
+  const Growth growth = growAndConnect(edge->node, edge->push);
+  if (tree_.isOpen(edge->node)) {
+    noteBestEdge(edge->node);
+  }
+  return growth;
+}
+
+ExpRrt::Growth ExpRrt::growToSample(const Pose2& pose) {
+  const int node = selectOpen(pose);
+  if (node < 0) {
+    return Growth::kExhausted;
+  }
+  const int push = isReachable(node) ? chooseCase(node, pose) : -1;
+  return push < 0 ? Growth::kNothing : growAndConnect(node, push);
+}
+
+ExpRrt::Growth ExpRrt::growAndConnect(int node, int push) {
+  int added = -1;
+  const Growth growth = extend(node, push, &added);
+  return growth == Growth::kNothing && added >= 0 ? connect(added) : growth;
 }
 
 // Alg. 1, line 5. Once a solution is known, only where a cheaper one may pass (informed sampling).
@@ -153,30 +192,19 @@ ExpRrt::Target ExpRrt::sample() {
     const double y = random_.uniform(min_m_.y(), max_m_.y());
     pose = Pose2(x, y, random_.uniform(-kPi, kPi));
     const double from_start = distance(tree_.node(0).map_T_object, pose);
-    if (time_.lowerBound(from_start) + remaining(pose) < best_cost_s_) {
+    if (!isHopeless(set_->time.lowerBound(from_start), pose)) {
       break;
     }
   }
   return {pose, false};
 }
 
-double ExpRrt::remaining(const Pose2& pose) const {
-  return time_.lowerBound(distance(pose, goal_->pose()) - goal_->tolerance().position_m);
-}
-
-// Alg. 1, line 6: MOSTSIMILAR, cost-aware in the default mode.
-int ExpRrt::select(const Target& target) {
-  if (options_.similarity == Similarity::kPaper) {
-    return selectMostSimilar(target.pose);
-  }
-  if (solutions_.empty()) {
-    return tree_.nearestOpen(target.pose);
-  }
+// Alg. 1, line 6: MOSTSIMILAR; with a solution cost-aware.
+int ExpRrt::selectOpen(const Pose2& target) {
   while (!tree_.openIds().empty()) {
-    const int chosen =
-        isImproving(target) ? selectMostPromising() : selectCheapestNear(target.pose);
+    const int chosen = isImproving() ? selectCheapestNear(target) : tree_.nearestOpen(target);
     const PushNode& node = tree_.node(chosen);
-    if (node.cost_s + remaining(node.map_T_object) < best_cost_s_) {
+    if (!isHopeless(node.cost_s, node.map_T_object)) {
       return chosen;
     }
     tree_.close(chosen);
@@ -193,19 +221,6 @@ int ExpRrt::selectCheapestNear(const Pose2& target) {
   };
   const auto cheapest = std::min_element(nearby_.begin(), nearby_.end(), cheaper);
   return cheapest == nearby_.end() ? tree_.open().nearest(target) : *cheapest;
-}
-
-// @pre There is an open node.
-int ExpRrt::selectMostPromising() {
-  while (!tree_.isOpen(promising_.top().second)) {
-    promising_.pop();
-  }
-  return promising_.top().second;
-}
-
-void ExpRrt::notePromise(int node) {
-  const PushNode& added = tree_.node(node);
-  promising_.emplace(added.cost_s + options_.greed * remaining(added.map_T_object), node);
 }
 
 int ExpRrt::selectMostSimilar(const Pose2& target) const {
@@ -226,84 +241,6 @@ int ExpRrt::selectMostSimilar(const Pose2& target) const {
   return best;
 }
 
-// Alg. 1, EXTEND: the same answer as checking all cases first, with a fraction of the checks.
-int ExpRrt::chooseCase(int node, const Target& target) {
-  const Pose2& pose = tree_.node(node).map_T_object;
-  order_.clear();
-  for (int push = 0; push < static_cast<int>(cases_.size()); ++push) {
-    if (tree_.isTried(node, push)) {
-      continue;
-    }
-    const Pose2 outcome = pose * cases_[push].start_outcome.mean;
-    const double d2 = squaredPoseDistance(outcome, target.pose, options_.gyration_radius_m);
-    order_.emplace_back(isImproving(target) ? pushCost(node, push) +
-                                                  options_.greed * time_.lowerBound(std::sqrt(d2))
-                                            : d2,
-                        push);
-  }
-  std::sort(order_.begin(), order_.end());
-  for (const auto& [key, push] : order_) {
-    if (checker_->isSafe(cases_[push], pose)) {
-      return push;
-    }
-    tree_.markTried(node, push);
-  }
-  return -1;
-}
-
-int ExpRrt::chooseCaseChecked(int node, const Pose2& target) {
-  const double reach_m = (max_m_ - min_m_).norm();
-  const Pose2& pose = tree_.node(node).map_T_object;
-  int best = -1;
-  std::pair<double, double> best_key{-1.0, 0.0};
-  for (int push = 0; push < static_cast<int>(cases_.size()); ++push) {
-    if (tree_.isTried(node, push)) {
-      continue;
-    }
-    if (!checker_->isSafe(cases_[push], pose)) {
-      tree_.markTried(node, push);
-      continue;
-    }
-    const Pose2 outcome = pose * cases_[push].start_outcome.mean;
-    const std::pair<double, double> key{paperSimilarity(outcome, target, reach_m),
-                                        -distance(outcome, target)};
-    if (best < 0 || key > best_key) {
-      best = push;
-      best_key = key;
-    }
-  }
-  return best;
-}
-
-double ExpRrt::pushCost(int node, int push) const {
-  const int previous = tree_.node(node).push;
-  return previous < 0 ? time_.first(object_T_robot_, push) : time_.after(previous, push);
-}
-
-ExpRrt::Growth ExpRrt::extend(int node, int push) {
-  PushNode child;
-  child.map_T_object = tree_.node(node).map_T_object * cases_[push].start_outcome.mean;
-  child.parent = node;
-  child.push = push;
-  child.cost_s = tree_.node(node).cost_s + pushCost(node, push);
-  const bool is_goal = goal_->tolerance().isMet(goal_->pose(), child.map_T_object);
-  const bool is_hopeless = child.cost_s + remaining(child.map_T_object) >= best_cost_s_;
-  const int id = is_hopeless ? -1 : tree_.add(child, !is_goal);
-  if (id < 0) {
-    tree_.markPostponed(node, push);
-    return Growth::kNothing;
-  }
-  tree_.markTried(node, push);
-  if (!is_goal) {
-    notePromise(id);
-    return Growth::kNothing;
-  }
-  const auto cheaper = [this](int a, int b) { return tree_.node(a).cost_s < tree_.node(b).cost_s; };
-  solutions_.insert(std::upper_bound(solutions_.begin(), solutions_.end(), id, cheaper), id);
-  best_cost_s_ = tree_.node(solutions_.front()).cost_s;
-  return Growth::kSolution;
-}
-
 std::vector<int> ExpRrt::chain(int node) const {
   std::vector<int> nodes;
   for (int id = node; id != PushNode::kRoot; id = tree_.node(id).parent) {
@@ -318,10 +255,7 @@ void ExpRrt::reject(int node) {
   const auto gone = [this](int id) { return tree_.isRemoved(id); };
   solutions_.erase(std::remove_if(solutions_.begin(), solutions_.end(), gone), solutions_.end());
   best_cost_s_ = solutions_.empty() ? kInfinity : tree_.node(solutions_.front()).cost_s;
-  promising_ = {};
-  for (const int id : tree_.openIds()) {
-    notePromise(id);
-  }
+  edges_ = {};  // Noted again when the search goes on.
 }
 
 void ExpRrt::addSolutionPath(int node) {

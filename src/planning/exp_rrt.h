@@ -4,15 +4,19 @@
 #include <ompl/base/goals/GoalSampleableRegion.h>
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <queue>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "case_set.h"
 #include "casepush/common/random.h"
 #include "casepush/model/push_plan.h"
 #include "casepush/planning/push_checker.h"
-#include "casepush/planning/push_time.h"
 #include "casepush/planning/similarity.h"
+#include "goal_guide.h"
 #include "push_tree.h"
 
 namespace casepush {
@@ -37,37 +41,48 @@ class PushGoal : public ompl::base::GoalSampleableRegion {
 
 struct ExpRrtOptions {
   Similarity similarity = Similarity::kMetric;
-  double goal_bias = 0.2;          ///< Probability that the sample is the goal (paper: 0.95).
+  double goal_bias = 0.8;          ///< Probability that the sample is the goal (paper: 0.95).
   int max_nodes = 50625;           ///< Paper section 6.
   double gyration_radius_m = 0.3;  ///< rho of the metric.
   double spacing_m = 0.1;          ///< Of nodes nearer than this only the cheaper grows.
-  // While a solution is being improved, besides:
+  double greed = 3.0;              ///< Weight of the time that a push leaves to the goal.
+  // While a solution is being improved:
   double improving_goal_bias = 0.5;  ///< In the place of goal_bias.
+  double improving_greed = 2.0;      ///< In the place of greed.
   double improving_radius_m = 2.0;   ///< The cheapest node within up to this is extended.
-  double greed = 2.0;                ///< Weight of the time that a node still needs to the goal.
   std::uint64_t seed = 1;
 };
+
+/// Can the robot get to push `next` with the object at rest at `map_T_object`?
+/// @param previous  The push that brought the object there; nullptr at the start.
+using CanApproach = std::function<bool(const Pose2& map_T_object, const PreparedCase* previous,
+                                       const PreparedCase& next)>;
 
 /// Exp-RRT (paper algorithm 1): a rapidly exploring random tree whose edges are learnt pushes.
 ///
 /// An OMPL planner over SE2StateSpace with a PushGoal. Departures from the printed algorithm, in
-/// both modes: a (node, case) pair is tried once and an exhausted node leaves the search.
-/// With Similarity::kMetric also: cases are tried in order of the distance of their outcome to the
-/// sample until the first safe one; not the nearest node is extended but the cheapest within a
-/// random radius; of two nodes at nearly the same pose only the cheaper grows. Once a solution is
-/// known, what cannot become cheaper is left out, and goal samples extend the node that promises
-/// the shortest time over the whole way. With Similarity::kPaper the node and the case most similar
-/// by eq. 3 are taken, all cases of a node are checked.
+/// both modes: a (node, case) pair is tried once, an exhausted node leaves the search, and so does
+/// a node to whose push the robot cannot get, which is asked before anything is pushed on from it.
+/// With Similarity::kMetric also: of two nodes at nearly the same pose only the cheaper grows; for
+/// a random sample cases are tried in order of the distance of their outcome until the first safe
+/// one; for the goal the pair of node and case is taken that promises the shortest time over the
+/// whole way (the guide says what is left), and chains of up to three cases that end in the goal
+/// region are tried from every new node. Once a solution is known, what cannot become cheaper is
+/// left out, and random samples extend the cheapest node within a random radius. With
+/// Similarity::kPaper the node and the case most similar by eq. 3 are taken, all cases of a node
+/// are checked.
 ///
 /// Each solve() continues the tree until the next new solution, the termination condition, or until
 /// nothing is left to try. Its own seed makes it reproducible; OMPL's random numbers are not used.
 class ExpRrt : public ompl::base::Planner {
  public:
   /// @param checker  Must outlive the planner; not shared with other threads while it solves.
+  /// @param guide  To the goal, outlives the planner; nullptr: straight there.
   /// @param object_T_robot  Where the robot stands at the start.
+  /// @param can_approach  Empty: it always can.
   ExpRrt(const ompl::base::SpaceInformationPtr& space, PushChecker* checker,
-         std::vector<PreparedCase> cases, const PushTime& time, const Pose2& object_T_robot,
-         const ExpRrtOptions& options);
+         std::shared_ptr<const CaseSet> cases, const GoalGuide* guide, const Pose2& object_T_robot,
+         CanApproach can_approach, const ExpRrtOptions& options);
   ~ExpRrt() override;
 
   void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& problem) override;
@@ -76,7 +91,7 @@ class ExpRrt : public ompl::base::Planner {
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
   const PushTree& tree() const { return tree_; }
-  const std::vector<PreparedCase>& cases() const { return cases_; }
+  const std::vector<PreparedCase>& cases() const { return set_->cases; }
 
   /// Extensions attempted so far: the deterministic measure of work.
   int extensionCount() const { return extension_count_; }
@@ -98,41 +113,67 @@ class ExpRrt : public ompl::base::Planner {
     bool is_goal;
   };
 
+  struct Edge {
+    double key_s;  ///< Expected time over the whole way, with greed.
+    int node;
+    int push;
+
+    bool operator>(const Edge& other) const {
+      return std::tie(key_s, node, push) > std::tie(other.key_s, other.node, other.push);
+    }
+  };
+
   bool start();
   Growth grow();
+  Growth growToGoal();
+  Growth growToSample(const Pose2& pose);
+  Growth growAndConnect(int node, int push);
   Target sample();
-  bool isImproving(const Target& target) const { return target.is_goal && !solutions_.empty(); }
-  int select(const Target& target);
+  bool isImproving() const { return !solutions_.empty(); }
+  bool mustStop(std::size_t work);
+  std::optional<Edge> chooseEdge();
+  int selectOpen(const Pose2& target);
   int selectCheapestNear(const Pose2& target);
-  int selectMostPromising();
   int selectMostSimilar(const Pose2& target) const;
-  void notePromise(int node);
-  int chooseCase(int node, const Target& target);
+  void noteBestEdge(int node);
+  void noteAllEdges();
+  int chooseCase(int node, const Pose2& target);
   int chooseCaseChecked(int node, const Pose2& target);
-  Growth extend(int node, int push);
+  bool isReachable(int node);
+  bool isSafe(int node, int push);
+  Growth extend(int node, int push, int* added = nullptr);
+  Growth addSolution(int node);
+  Growth connect(int node);
+  Growth follow(int node, const CaseChain& chain);
   double pushCost(int node, int push) const;
   double remaining(const Pose2& pose) const;
+  double expected(const Eigen::Vector2d& position_m, double yaw_rad) const;
+  bool isHopeless(double cost_s, const Pose2& pose) const;
   void addSolutionPath(int node);
   void freeDataStates() const;
 
   PushChecker* checker_;
-  std::vector<PreparedCase> cases_;
-  PushTime time_;
+  std::shared_ptr<const CaseSet> set_;
+  const GoalGuide* guide_;
   Pose2 object_T_robot_;
+  CanApproach can_approach_;
   ExpRrtOptions options_;
   Eigen::Vector2d min_m_;
   Eigen::Vector2d max_m_;
   PushTree tree_;
   Random random_;
   const PushGoal* goal_ = nullptr;
+  const ompl::base::PlannerTerminationCondition* stop_ = nullptr;  // of the call of solve()
   std::vector<int> solutions_;
   double best_cost_s_;
   int extension_count_ = 0;
-  // (expected time over the whole way, node), the least first; also nodes that closed meanwhile.
-  using Promise = std::pair<double, int>;
-  std::priority_queue<Promise, std::vector<Promise>, std::greater<>> promising_;
+  std::size_t work_ = 0;             // cases looked at since somebody was asked whether to stop
+  std::vector<bool> is_approached_;  // nodes whose push the robot can get to
+  // The best untried edge of each node that is open, and of some that closed meanwhile.
+  std::priority_queue<Edge, std::vector<Edge>, std::greater<>> edges_;
   std::vector<int> nearby_;                    // scratch
   std::vector<std::pair<double, int>> order_;  // scratch
+  std::vector<const CaseChain*> endings_;      // scratch
   mutable std::vector<ompl::base::State*> data_states_;
 };
 

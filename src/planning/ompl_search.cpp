@@ -35,15 +35,17 @@ Pose2 poseOf(const ob::State* state) {
 /// One step of propagation is one push.
 class PushPropagator : public oc::StatePropagator {
  public:
-  PushPropagator(const oc::SpaceInformationPtr& space, const ChainProblem& problem)
-      : StatePropagator(space), problem_(problem) {}
+  PushPropagator(const oc::SpaceInformationPtr& space, const ChainProblem& problem,
+                 const std::function<bool()>& stop)
+      : StatePropagator(space), problem_(problem), stop_(stop) {}
 
   void propagate(const ob::State* state, const oc::Control* control, double,
                  ob::State* result) const override {
     const int push = control->as<Discrete::ControlType>()->value;
     const Pose2 from = poseOf(state);
     auto* se2 = result->as<Se2::StateType>();
-    if (!problem_.checker.isSafe(problem_.cases[push], from)) {
+    // Some planners ask for as many pushes as there are cases before they look whether to stop.
+    if (stop_() || !problem_.checker.isSafe(problem_.cases[push], from)) {
       se2->setXY(kNowhere_m, kNowhere_m);
       se2->setYaw(0.0);
       return;
@@ -58,10 +60,11 @@ class PushPropagator : public oc::StatePropagator {
 
  private:
   const ChainProblem& problem_;
+  const std::function<bool()>& stop_;
   mutable int safe_ = 0;
 };
 
-oc::SpaceInformationPtr makeSpace(const ChainProblem& problem) {
+oc::SpaceInformationPtr makeSpace(const ChainProblem& problem, const std::function<bool()>& stop) {
   const CollisionChecker::Columns& columns = problem.checker.collisions().columns();
   ob::RealVectorBounds bounds(2);
   bounds.setLow(0, columns.origin_m.x());
@@ -76,7 +79,7 @@ oc::SpaceInformationPtr makeSpace(const ChainProblem& problem) {
   ob::SpaceInformation* raw = space.get();
   space->setStateValidityChecker(
       [raw](const ob::State* state) { return raw->satisfiesBounds(state); });
-  space->setStatePropagator(std::make_shared<PushPropagator>(space, problem));
+  space->setStatePropagator(std::make_shared<PushPropagator>(space, problem, stop));
   space->setPropagationStepSize(1.0);
   space->setMinMaxControlDuration(1, 1);
   // As directed as Exp-RRT's EXTEND: of as many tries as there are cases the best one.
@@ -106,9 +109,16 @@ ob::PlannerPtr makePlanner(PlannerKind kind, const oc::SpaceInformationPtr& spac
 }  // namespace
 
 ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
-                           const std::function<bool()>& stop) {
+                           const std::function<bool(double)>& is_over) {
+  // Planners free their trees one node after the other.
+  constexpr double kFreeing_s = 1e-6;
+  const PushPropagator* pushes = nullptr;
+  const std::function<bool()> stop = [&] {
+    return is_over(pushes == nullptr ? 0.0 : kFreeing_s * pushes->safeCount());
+  };
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
-  const oc::SpaceInformationPtr space = makeSpace(problem);
+  const oc::SpaceInformationPtr space = makeSpace(problem, stop);
+  pushes = static_cast<const PushPropagator*>(space->getStatePropagator().get());
   const auto definition = std::make_shared<ob::ProblemDefinition>(space);
   ob::ScopedState<Se2> start(space);
   start->setXY(problem.map_T_start.x(), problem.map_T_start.y());
@@ -126,7 +136,7 @@ ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
   ChainResult result;
   const ob::PlannerStatus status = planner->solve(condition);
   // The planner's own data takes seconds to collect.
-  result.nodes = std::static_pointer_cast<PushPropagator>(space->getStatePropagator())->safeCount();
+  result.nodes = pushes->safeCount();
   if (status != ob::PlannerStatus::EXACT_SOLUTION) return result;
   const auto* path = definition->getSolutionPath()->as<oc::PathControl>();
   Pose2 pose = problem.map_T_start;

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "casepush/world/shadow.h"
-#include "clearance_grid.h"
 
 namespace casepush {
 namespace {
@@ -22,7 +21,8 @@ constexpr int kStraight = 29;
 constexpr int kDiagonal = OriginDistance::kLongestStep;
 constexpr int kUnreached = std::numeric_limits<int>::max();
 
-/// The largest discs around the origin that parts contain.
+}  // namespace
+
 std::vector<TravelDisc> innerDiscs(const Solid& object) {
   std::vector<TravelDisc> discs;
   for (const ConvexPart& part : convexParts(object)) {
@@ -36,8 +36,6 @@ std::vector<TravelDisc> innerDiscs(const Solid& object) {
   }
   return discs;
 }
-
-}  // namespace
 
 /// Cells where the object's origin cannot be, with a rim of blocked ones around the map.
 class OriginDistance::BlockedCells {

@@ -6,8 +6,12 @@
 
 #include "casepush/model/geometry.h"
 #include "casepush/world/collision_checker.h"
+#include "clearance_grid.h"
 
 namespace casepush {
+
+/// The largest discs around an object's origin that its parts contain, at their heights.
+std::vector<TravelDisc> innerDiscs(const Solid& object);
 
 /// A lower bound of the way that an object's origin has to go to a goal region, over the whole map.
 ///

@@ -15,8 +15,9 @@ namespace {
 namespace ob = ompl::base;
 using Se2 = ob::SE2StateSpace;
 
-// Improving a plan must leave time for the robot's paths to be verified.
-constexpr double kImprovementShare = 0.5;
+// Improving a plan must leave time for the robot's paths to be verified, if they are not yet.
+constexpr double kThoroughShare = 0.5;
+constexpr double kSimpleShare = 0.97;
 
 ob::SpaceInformationPtr makeSpace(PushChecker* checker) {
   const CollisionChecker::Columns& columns = checker->collisions().columns();
@@ -48,7 +49,8 @@ ob::ProblemDefinitionPtr makeDefinition(const ob::SpaceInformationPtr& space,
 }
 
 ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& space,
-               PushChecker* checker, double zeta) {
+               PushChecker* checker, std::shared_ptr<const CaseSet> cases, const GoalGuide* guide,
+               CanApproach can_approach) {
   const PushPlannerOptions& options = problem.options;
   ExpRrtOptions rrt;
   rrt.similarity = options.similarity;
@@ -59,22 +61,29 @@ ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& spac
   constexpr double kSamePose_m = 1e-3;
   rrt.spacing_m = options.similarity == Similarity::kPaper ? kSamePose_m : options.spacing_m;
   rrt.seed = problem.request.seed;
-  std::vector<PreparedCase> cases = prepareFor(problem, *checker, zeta);
-  const PushTime time(cases, options.time);
   const Pose2 object_T_robot =
       problem.request.object.map_T_object.inverse() * problem.request.map_T_robot;
-  return ExpRrt(space, checker, std::move(cases), time, object_T_robot, rrt);
+  return ExpRrt(space, checker, std::move(cases), guide, object_T_robot, std::move(can_approach),
+                rrt);
 }
 
 }  // namespace
 
-std::vector<PreparedCase> prepareFor(const SearchProblem& problem, const PushChecker& checker,
-                                     double zeta) {
+std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const PushChecker& checker,
+                                          double zeta, const SearchClock& clock) {
   const double step_m = kStepPerCell * checker.collisions().columns().resolution_m;
-  std::vector<PreparedCase> cases =
-      prepareCases(problem.cases, zeta, step_m, problem.object.radius_m, problem.robot.radius_m);
-  problem.attach_sweeps(&cases);
-  return cases;
+  const auto make = [&]() -> std::shared_ptr<const CaseSet> {
+    std::vector<PreparedCase> cases;
+    cases.reserve(problem.cases.size());
+    for (const Case* push_case : problem.cases) {
+      if (clock.isOver()) return nullptr;
+      cases.push_back(
+          prepareCase(*push_case, zeta, step_m, problem.object.radius_m, problem.robot.radius_m));
+    }
+    problem.attach_sweeps(&cases);
+    return std::make_shared<const CaseSet>(std::move(cases), problem.options.time);
+  };
+  return problem.case_sets->get(problem.cases, zeta, make);
 }
 
 SearchClock::SearchClock(double deadline_s, std::function<bool()> stop,
@@ -86,8 +95,8 @@ SearchClock::SearchClock(double deadline_s, std::function<bool()> stop,
 
 bool SearchClock::isCancelled() const { return stop_ && stop_(); }
 
-bool SearchClock::isOver(double share) const {
-  return isCancelled() || elapsedS() >= share * deadline_s_;
+bool SearchClock::isOver(double share, double reserve_s) const {
+  return isCancelled() || elapsedS() >= share * deadline_s_ - reserve_s;
 }
 
 double SearchClock::elapsedS() const {
@@ -104,16 +113,28 @@ void SearchClock::report(int nodes, double best_cost_s) const {
   report_({now_s, nodes_ + nodes, best_cost_s});
 }
 
-PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta)
+PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta,
+                       std::shared_ptr<const CaseSet> cases, const GoalGuide& guide,
+                       Approaches approaches)
     : problem_(problem),
       zeta_(zeta),
       space_(makeSpace(checker)),
       definition_(makeDefinition(space_, problem.request)),
-      rrt_(makeRrt(problem, space_, checker, zeta)),
+      rrt_(makeRrt(problem, space_, checker, std::move(cases), &guide,
+                   approaches == Approaches::kSimple ? simpleApproach() : CanApproach())),
       checker_(checker),
-      approaches_(problem_, checker->collisions()) {
+      approaches_how_(approaches),
+      approaches_(problem, checker->collisions()) {
   rrt_.setProblemDefinition(definition_);
   rrt_.setup();
+}
+
+CanApproach PlanSearch::simpleApproach() {
+  return [this](const Pose2& map_T_object, const PreparedCase* previous, const PreparedCase& next) {
+    const bool can = approaches_.canApproachSimply(map_T_object, previous, next);
+    has_rejected_ = has_rejected_ || !can;
+    return can;
+  };
 }
 
 PlanSearch::End PlanSearch::run(const SearchClock& clock) {
@@ -122,14 +143,15 @@ PlanSearch::End PlanSearch::run(const SearchClock& clock) {
       if (clock.isOver()) {
         return End::kStopped;
       }
-      if (isCutOff(clock)) {
+      if (!mayBeMissing() && isCutOff(clock)) {
         return End::kCutOff;
       }
       return rrt_.tree().size() >= problem_.options.max_nodes ? End::kNodeLimit : End::kExhausted;
     }
     improve(clock);
     const int candidate = rrt_.solutions().front();
-    const std::optional<int> unreachable = findUnreachable(rrt_.chain(candidate), clock);
+    const std::optional<int> unreachable =
+        approaches_how_ == Approaches::kSimple ? -1 : findUnreachable(rrt_.chain(candidate), clock);
     if (!unreachable) {
       return End::kStopped;
     }
@@ -137,21 +159,28 @@ PlanSearch::End PlanSearch::run(const SearchClock& clock) {
       solution_ = candidate;
       return End::kFound;
     }
+    has_rejected_ = true;
     rrt_.reject(*unreachable);
   }
 }
 
 bool PlanSearch::findFirst(const SearchClock& clock) {
-  // A search that takes so long may have no end: then it is worth while to look at the whole map.
+  // A search that takes so long may have no end: then it is worth while to look at the whole map,
+  // and at what the quick check of approaches turned down.
   constexpr int kQuick = 3000;
   const int quick = rrt_.extensionCount() + kQuick;
   rrt_.solve(ob::PlannerTerminationCondition(
       [this, quick, &clock] { return rrt_.extensionCount() >= quick || isOver(clock, 1.0); }));
-  if (!rrt_.solutions().empty() || clock.isOver() || isCutOff(clock)) {
+  if (!rrt_.solutions().empty() || clock.isOver() || mayBeMissing() || isCutOff(clock)) {
     return !rrt_.solutions().empty();
   }
   rrt_.solve(ob::PlannerTerminationCondition([this, &clock] { return isOver(clock, 1.0); }));
   return !rrt_.solutions().empty();
+}
+
+// The quick check may have turned down what there is no way around.
+bool PlanSearch::mayBeMissing() const {
+  return approaches_how_ == Approaches::kSimple && has_rejected_;
 }
 
 bool PlanSearch::isOver(const SearchClock& clock, double share) const {
@@ -173,9 +202,11 @@ void PlanSearch::improve(const SearchClock& clock) {
   if (problem_.options.similarity == Similarity::kPaper) {
     return;  // Takes the first solution.
   }
-  const int limit = rrt_.extensionCount() + problem_.options.improvement_extensions;
-  const ob::PlannerTerminationCondition stop([this, limit, &clock] {
-    return rrt_.extensionCount() >= limit || isOver(clock, kImprovementShare);
+  const std::int64_t limit =
+      std::int64_t{rrt_.extensionCount()} + problem_.options.improvement_extensions;
+  const double share = approaches_how_ == Approaches::kSimple ? kSimpleShare : kThoroughShare;
+  const ob::PlannerTerminationCondition stop([this, limit, share, &clock] {
+    return rrt_.extensionCount() >= limit || isOver(clock, share);
   });
   const auto wanted = static_cast<std::size_t>(problem_.options.solutions);
   std::size_t before = 0;
@@ -217,11 +248,7 @@ ApproachVerifier::ApproachVerifier(const SearchProblem& problem, const Collision
 
 bool ApproachVerifier::canApproach(const Pose2& map_T_object, const PreparedCase* previous,
                                    const PreparedCase& next) {
-  const PlacedObject object{"", problem_.request.object.model, map_T_object};
-  const bool is_simple = previous == nullptr
-                             ? quick_.canReach(object, problem_.request.map_T_robot, next)
-                             : quick_.canFollow(object, *previous, next);
-  if (is_simple) {
+  if (canApproachSimply(map_T_object, previous, next)) {
     return true;
   }
   const Pose2 map_T_robot =
@@ -237,6 +264,13 @@ bool ApproachVerifier::canApproach(const Pose2& map_T_object, const PreparedCase
     explanation_ = path.explanation;
   }
   return path.found;
+}
+
+bool ApproachVerifier::canApproachSimply(const Pose2& map_T_object, const PreparedCase* previous,
+                                         const PreparedCase& next) {
+  const PlacedObject object{"", problem_.request.object.model, map_T_object};
+  return previous == nullptr ? quick_.canReach(object, problem_.request.map_T_robot, next)
+                             : quick_.canFollow(object, *previous, next);
 }
 
 PushPlan PlanSearch::plan() const {

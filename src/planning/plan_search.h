@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "approach_check.h"
+#include "case_set.h"
 #include "casepush/planning/push_planner.h"
 #include "exp_rrt.h"
+#include "goal_guide.h"
 
 namespace casepush {
 
@@ -22,8 +24,8 @@ class SearchClock {
               std::function<void(const PlanProgress&)> report = {});
 
   bool isCancelled() const;
-  /// True once cancelled or `share` of the time until the deadline has passed.
-  bool isOver(double share = 1.0) const;
+  /// True once cancelled or `share` of the time until the deadline has passed, but for a reserve.
+  bool isOver(double share = 1.0, double reserve_s = 0.0) const;
   double elapsedS() const;
 
   /// Reports if a while has passed since the last report or the best cost went down.
@@ -45,7 +47,7 @@ class SearchClock {
 /// What a search works with; all must outlive it.
 struct SearchProblem {
   const PlanRequest& request;
-  const std::vector<Case>& cases;  ///< All of the request's object, at least one.
+  const std::vector<const Case*>& cases;  ///< All of the request's object, at least one.
   const ObjectModel& object;
   const RobotModel& robot;
   const PushPlannerOptions& options;
@@ -53,6 +55,8 @@ struct SearchProblem {
   const std::vector<PlacedSolid>& obstacles;
   std::function<void(std::vector<PreparedCase>*)> attach_sweeps;
   ApproachLibrary* approaches;
+  CaseSetLibrary* case_sets;
+  const ObjectRoom& room;
 };
 
 /// Decides whether the robot can get from push to push.
@@ -64,6 +68,10 @@ class ApproachVerifier {
   bool canApproach(const Pose2& map_T_object, const PreparedCase* previous,
                    const PreparedCase& next);
 
+  /// The same without looking for ways that take long to find.
+  bool canApproachSimply(const Pose2& map_T_object, const PreparedCase* previous,
+                         const PreparedCase& next);
+
   /// Why the robot could not get to the last push that it could not get to; empty if none.
   const std::string& problem() const { return explanation_; }
 
@@ -74,15 +82,24 @@ class ApproachVerifier {
   std::string explanation_;
 };
 
-/// The request's cases, ready for a search with one spread of sigma points.
-std::vector<PreparedCase> prepareFor(const SearchProblem& problem, const PushChecker& checker,
-                                     double zeta);
+/// The request's cases, ready for a search with one spread of sigma points; nullptr if the clock
+/// ran out.
+std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const PushChecker& checker,
+                                          double zeta, const SearchClock& clock);
 
-/// One search with one spread of sigma points: grows an Exp-RRT, compares its solutions by expected
-/// time and verifies that the robot can get to every push of the cheapest.
+/// How it is decided whether the robot can get to a push.
+enum class Approaches {
+  kSimple,    ///< While the tree grows, by a quick check that may miss a way.
+  kThorough,  ///< For each push of a solution, by RobotPathPlanner.
+};
+
+/// One search with one spread of sigma points: grows an Exp-RRT and compares its solutions by
+/// expected time. The robot can get to every push of the result.
 class PlanSearch {
  public:
-  PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta);
+  /// All must outlive it.
+  PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta,
+             std::shared_ptr<const CaseSet> cases, const GoalGuide& guide, Approaches approaches);
 
   enum class End { kFound, kExhausted, kNodeLimit, kStopped, kCutOff };
   End run(const SearchClock& clock);
@@ -91,11 +108,15 @@ class PlanSearch {
   double expectedS() const { return rrt_.tree().node(solution_).cost_s; }
   const ExpRrt& rrt() const { return rrt_; }
 
+  /// Was a push turned down because the robot may not get to it?
+  bool hasRejected() const { return has_rejected_; }
   /// Why the robot could not get to a push of a rejected plan; empty if none was rejected.
   const std::string& approachProblem() const { return approaches_.problem(); }
 
  private:
+  CanApproach simpleApproach();
   bool findFirst(const SearchClock& clock);
+  bool mayBeMissing() const;
   bool isCutOff(const SearchClock& clock) const;
   bool isOver(const SearchClock& clock, double share) const;  ///< Reports, too.
   void improve(const SearchClock& clock);
@@ -104,13 +125,15 @@ class PlanSearch {
   std::optional<int> findUnreachable(const std::vector<int>& chain, const SearchClock& clock);
   bool canApproach(int node);
 
-  SearchProblem problem_;
+  const SearchProblem& problem_;
   double zeta_;
   ompl::base::SpaceInformationPtr space_;
   ompl::base::ProblemDefinitionPtr definition_;
   ExpRrt rrt_;
   PushChecker* checker_;
+  Approaches approaches_how_;
   ApproachVerifier approaches_;
+  bool has_rejected_ = false;
   std::vector<int> approachable_;  // nodes whose push the robot can get to
   int solution_ = -1;
 };

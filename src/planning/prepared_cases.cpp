@@ -46,8 +46,12 @@ std::vector<Pose2> coarseToFine(const std::vector<Pose2>& poses) {
   return result;
 }
 
-PreparedCase prepare(const Case& push_case, double zeta, double step_m, double object_radius_m,
-                     double robot_radius_m) {
+}  // namespace
+
+PreparedCase prepareCase(const Case& push_case, double zeta, double step_m, double object_radius_m,
+                         double robot_radius_m) {
+  CASEPUSH_CHECK(step_m > 0.0, "step " << step_m);
+  CASEPUSH_CHECK(!push_case.steps.empty(), "case " << push_case.id << " has no steps");
   PreparedCase prepared;
   prepared.id = push_case.id;
   prepared.start_outcome = push_case.start_outcome;
@@ -73,16 +77,12 @@ PreparedCase prepare(const Case& push_case, double zeta, double step_m, double o
   return prepared;
 }
 
-}  // namespace
-
 std::vector<PreparedCase> prepareCases(const std::vector<Case>& cases, double zeta, double step_m,
                                        double object_radius_m, double robot_radius_m) {
-  CASEPUSH_CHECK(step_m > 0.0, "step " << step_m);
   std::vector<PreparedCase> prepared;
   prepared.reserve(cases.size());
   for (const Case& push_case : cases) {
-    CASEPUSH_CHECK(!push_case.steps.empty(), "case " << push_case.id << " has no steps");
-    prepared.push_back(prepare(push_case, zeta, step_m, object_radius_m, robot_radius_m));
+    prepared.push_back(prepareCase(push_case, zeta, step_m, object_radius_m, robot_radius_m));
   }
   return prepared;
 }

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <utility>
 
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
-#include "casepush/common/violations.h"
 #include "casepush/model/plan_scatter.h"
 #include "chain_plan.h"
 #include "plan_request.h"
@@ -85,7 +83,7 @@ std::string unreachableText(const Outcome& outcome, int max_nodes) {
 }
 
 Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
-                   const SearchClock& clock, PlanResult* result) {
+                   const GoalGuide& guide, const SearchClock& clock, PlanResult* result) {
   Outcome outcome;
   if (problem.options.planner == PlannerKind::kLattice || isOmpl(problem.options.planner)) {
     ChainPlan made = planChain(problem, checker, safety, clock);
@@ -94,14 +92,26 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
     return {made.end, std::move(made.plan), made.expected_s, made.nodes,
             std::move(made.approach_problem)};
   }
-  PlanSearch search(problem, checker, safety.zeta);
-  outcome.end = search.run(clock);
-  addTree(search.rrt(), result);
-  outcome.nodes = search.rrt().tree().size();
-  outcome.approach_problem = search.approachProblem();
-  if (outcome.end == PlanSearch::End::kFound) {
-    outcome.plan = search.plan();
-    outcome.expected_s = search.expectedS();
+  outcome.end = PlanSearch::End::kStopped;
+  const auto cases = caseSetFor(problem, *checker, safety.zeta, clock);
+  if (cases == nullptr) {
+    return outcome;
+  }
+  for (const Approaches approaches : {Approaches::kSimple, Approaches::kThorough}) {
+    PlanSearch search(problem, checker, safety.zeta, cases, guide, approaches);
+    outcome.end = search.run(clock);
+    addTree(search.rrt(), result);
+    outcome.nodes = search.rrt().tree().size();
+    outcome.approach_problem = search.approachProblem();
+    if (outcome.end == PlanSearch::End::kFound) {
+      outcome.plan = search.plan();
+      outcome.expected_s = search.expectedS();
+    }
+    const bool is_over = outcome.end != PlanSearch::End::kExhausted || !search.hasRejected();
+    if (is_over) {
+      break;
+    }
+    clock.addNodes(outcome.nodes);
   }
   return outcome;
 }
@@ -132,6 +142,8 @@ struct PushPlanner::Data {
   std::map<std::string, Footprints> footprints;
   std::unique_ptr<SweepLibrary> library;
   std::unique_ptr<ApproachLibrary> approaches;
+  std::unique_ptr<CaseSetLibrary> case_sets;
+  std::unique_ptr<RoomLibrary> rooms;
 
   CollisionChecker checkerWith(const std::vector<PlacedSolid>& obstacles) const {
     CollisionChecker copy = checker;
@@ -147,46 +159,10 @@ struct PushPlanner::Data {
         {robot_footprint, robot.radius_m + options.robot_margin_m});
   }
 
-  PlanResult search(const PlanRequest& request, const std::vector<Case>& cases,
+  PlanResult search(const PlanRequest& request, const std::vector<const Case*>& cases,
                     const SearchClock& clock) const;
   void chain(const std::vector<Case>& cases, PushChecker* push_checker, Continuation* rest) const;
 };
-
-PushPlannerOptions PushPlannerOptions::forPlanner(PlannerKind kind) {
-  PushPlannerOptions options;
-  options.planner = kind;
-  if (kind == PlannerKind::kExpRrtPaper) {
-    options.similarity = Similarity::kPaper;
-    options.goal_bias = 0.95;
-  }
-  return options;
-}
-
-void PushPlannerOptions::validate() const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Violations violations;
-  violations.require("goal_bias", goal_bias, 0.0, 1.0);
-  violations.require("max_nodes", max_nodes, 1, 10000000);
-  violations.require("zeta", zeta, 0.0, 10.0);
-  violations.require("object_margin_m", object_margin_m, 0.0, 1.0);
-  violations.require("robot_margin_m", robot_margin_m, 0.0, 1.0);
-  violations.require("solutions", solutions, 1, kInfinity);
-  violations.require("improvement_extensions", improvement_extensions, 0, kInfinity);
-  violations.requirePositive("spacing_m", spacing_m, 1.0);
-  violations.requirePositive("risk.max_collision_probability", risk.max_collision_probability, 1.0);
-  violations.require("risk.horizon", risk.horizon, 1, 1000);
-  violations.require("risk.recovery_s", risk.recovery_s, 0.0, 3600.0);
-  violations.require("mask_memory_mb", mask_memory_mb, 0, 100000);
-  violations.requirePositive("time.drive_speed_mps", time.drive_speed_mps, kInfinity);
-  violations.requirePositive("time.turn_rate_rps", time.turn_rate_rps, kInfinity);
-  violations.require("time.clearance_m", time.clearance_m, 0.0, kInfinity);
-  violations.require("time.handling_s", time.handling_s, 0.0, kInfinity);
-  violations.throwIfAny("push planner options");
-  if (risk.model == RiskModel::kChance && planner != PlannerKind::kLattice) {
-    throw InputError("risk", std::string("planner ") + toString(planner) +
-                                 " knows no chance constraints; use lattice");
-  }
-}
 
 PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
                          std::map<std::string, ObjectModel> objects, PushPlannerOptions options) {
@@ -207,10 +183,13 @@ PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
            {},
            {},
            std::make_unique<SweepLibrary>(std::size_t{1000000} * options.mask_memory_mb),
+           {},
+           std::make_unique<CaseSetLibrary>(),
            {}});
   data_->robot_footprint = data_->checker.footprint(data_->robot.solid, options.robot_margin_m);
   data_->approaches = std::make_unique<ApproachLibrary>(data_->checker, data_->robot,
                                                         data_->objects, options.robot_path);
+  data_->rooms = std::make_unique<RoomLibrary>(data_->checker, data_->objects);
   for (const auto& [name, model] : data_->objects) {
     Data::Footprints& footprints = data_->footprints[name];
     footprints.exact = data_->checker.footprint(model.solid);
@@ -233,10 +212,10 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
   if (const auto problem = checkRequest(request, data_->objects)) {
     return failed(problem->status, problem->explanation);
   }
-  std::vector<Case> own;
+  std::vector<const Case*> own;
   for (const Case& push_case : cases) {
     if (isFor(push_case, request.object.model, data_->robot.name)) {
-      own.push_back(push_case);
+      own.push_back(&push_case);
     }
   }
   PlanResult result;
@@ -246,8 +225,11 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
                                               "\"; learn some first");
   } else {
     try {
-      for (const Case& push_case : own) {
-        validateCase(push_case, "case " + std::to_string(push_case.id));
+      for (const Case* push_case : own) {
+        if (clock.isOver()) {
+          break;
+        }
+        validateCase(*push_case, "case " + std::to_string(push_case->id));
       }
       result = data_->search(request, own, clock);
     } catch (const InputError& error) {
@@ -258,7 +240,8 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
   return result;
 }
 
-PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vector<Case>& cases,
+PlanResult PushPlanner::Data::search(const PlanRequest& request,
+                                     const std::vector<const Case*>& cases,
                                      const SearchClock& clock) const {
   const std::vector<PlacedSolid> obstacles = placeObstacles(request.obstacles, objects);
   const Footprints& own = footprints.at(request.object.model);
@@ -278,10 +261,21 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request, const std::vect
                                 library->attach(own.sweeps->classes(), own.grown, robot_footprint,
                                                 prepared);
                               },
-                              approaches.get()};
+                              approaches.get(),
+                              case_sets.get(),
+                              rooms->get(request.object.model)};
   PlanResult result;
+  const GoalGuide guide(problem.room, obstacles, request.object.map_T_object.position(),
+                        request.map_T_goal.position(), request.tolerance.position_m);
+  if (!guide.reachesStart()) {
+    result.status = PlanStatus::kUnreachable;
+    Outcome cut_off;
+    cut_off.end = PlanSearch::End::kCutOff;
+    result.explanation = unreachableText(cut_off, options.max_nodes);
+    return result;
+  }
   for (const SafetyLevel& safety : safetyLevels(options.risk, options.zeta)) {
-    const Outcome outcome = searchOnce(problem, &push_checker, safety, clock, &result);
+    const Outcome outcome = searchOnce(problem, &push_checker, safety, guide, clock, &result);
     result.collision_checks = push_checker.checkCount();
     clock.addNodes(outcome.nodes);
     if (outcome.end == PlanSearch::End::kFound) {

@@ -23,21 +23,24 @@ PushTime::PushTime(const std::vector<PreparedCase>& cases, const PushTimeOptions
     begin_.push_back(push_case.robot_begin);
     duration_s_.push_back(push_case.duration_s);
   }
+  for (const PreparedCase& push_case : cases) {
+    end_.push_back(push_case.outcome_T_robot);
+    // Any push needs its handling, and may need no way at all.
+    const double fastest_s = options_.handling_s + push_case.duration_s;
+    best_speed_mps_ =
+        std::max(best_speed_mps_, push_case.start_outcome.mean.position().norm() / fastest_s);
+  }
+  if (count_ > kTabled) return;
   for (std::size_t i = 0; i < count_; ++i) {
     for (std::size_t j = 0; j < count_; ++j) {
-      step_s_.push_back(drive(cases[i].outcome_T_robot, begin_[j]) + duration_s_[j]);
+      step_s_.push_back(drive(end_[i], begin_[j]) + duration_s_[j]);
     }
   }
-  for (std::size_t j = 0; j < count_; ++j) {
-    double fastest_s = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < count_; ++i) {
-      fastest_s = std::min(fastest_s, after(static_cast<int>(i), static_cast<int>(j)));
-    }
-    // The first push of a plan may need no way at all.
-    fastest_s = std::min(fastest_s, options_.handling_s + duration_s_[j]);
-    best_speed_mps_ =
-        std::max(best_speed_mps_, cases[j].start_outcome.mean.position().norm() / fastest_s);
-  }
+}
+
+double PushTime::after(int previous, int next) const {
+  if (count_ > kTabled) return drive(end_[previous], begin_[next]) + duration_s_[next];
+  return step_s_[static_cast<std::size_t>(previous) * count_ + next];
 }
 
 // Straight on if the object is not in the way, otherwise out, around it and in again.

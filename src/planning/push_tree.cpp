@@ -113,6 +113,13 @@ int PushTree::nearestOpen(const Pose2& pose) const {
   return best.second;
 }
 
+void PushTree::removeLeaf(int id) {
+  close(id);
+  state_[id] = State::kRemoved;
+  const auto entry = cheapest_.find(cell(nodes_[id].map_T_object));
+  if (entry != cheapest_.end() && entry->second == id) cheapest_.erase(entry);
+}
+
 void PushTree::removeSubtree(int id) {
   close(id);
   state_[id] = State::kRemoved;

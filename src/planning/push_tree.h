@@ -51,6 +51,9 @@ class PushTree {
   /// Takes a node out of the search until the next removeSubtree.
   void close(int id);
 
+  /// Removes a node from which nothing was pushed, at once; what was turned down stays so.
+  void removeLeaf(int id);
+
   /// Removes a node and all below it. What was turned down in favour of them gets a new chance.
   void removeSubtree(int id);
 

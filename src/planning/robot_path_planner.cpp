@@ -14,7 +14,6 @@
 namespace casepush {
 namespace {
 
-constexpr double kDirect_m = 0.5;  // Try the straight motion first if the goal is this near.
 constexpr double kMaxDock_m = 1.0;
 constexpr double kMaxUndock_m = 1.2;
 constexpr double kObstacleRange_m = 0.3;  // Clearance around objects is exact up to this.

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <ctime>
 #include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "casepush/cases/case_base.h"
@@ -46,8 +48,38 @@ nlohmann::ordered_json plannerJson(PlannerKind kind, const std::vector<PlanRun>&
           {"nodes", quantile(nodes, 0.5)}};
 }
 
+/// Ratios to the fastest of OMPL's planners in the same run.
+nlohmann::ordered_json bestOfOmpl(const PlanBenchmark& measured,
+                                  const nlohmann::ordered_json& planners) {
+  int best = -1;
+  for (std::size_t i = 0; i < measured.planners.size(); ++i) {
+    const bool is_faster = best < 0 || planners[i]["median_s"] < planners[best]["median_s"];
+    if (isOmpl(measured.planners[i]) && is_faster) best = static_cast<int>(i);
+  }
+  if (best < 0) return nullptr;
+  nlohmann::ordered_json ratios;
+  const double median_s = planners[best]["median_s"];
+  for (const auto& planner : planners) {
+    const double own_s = planner["median_s"];
+    if (own_s > 0.0) ratios[planner["planner"].get<std::string>()] = median_s / own_s;
+  }
+  return {{"planner", planners[best]["planner"]}, {"times_as_fast", ratios}};
+}
+
+nlohmann::ordered_json plannersJson(const PlanBenchmark& measured, const std::string& world) {
+  nlohmann::ordered_json planners = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < measured.planners.size(); ++i) {
+    std::vector<PlanRun> runs;
+    std::copy_if(measured.runs[i].begin(), measured.runs[i].end(), std::back_inserter(runs),
+                 [&world](const PlanRun& run) { return world.empty() || run.world == world; });
+    planners.push_back(plannerJson(measured.planners[i], runs));
+  }
+  return planners;
+}
+
 int benchPlan(const PlanBenchArguments& arguments) {
   const Stopwatch watch;
+  const std::int64_t started_s = std::time(nullptr);
   PlanBenchmarkOptions options = arguments.options;
   options.seed = arguments.common.seed;
   if (!arguments.planners.empty()) {
@@ -61,23 +93,26 @@ int benchPlan(const PlanBenchArguments& arguments) {
   const PlanBenchmark measured =
       comparePlanners(Catalog::standard(), base.cases(options.object), options, [&](int problem) {
         line.show("problem " + std::to_string(problem + 1) + "/" +
-                  std::to_string(options.problems));
+                  std::to_string(options.problems * static_cast<int>(options.worlds.size())));
       });
   if (!arguments.log.empty()) {
     std::ofstream log(arguments.log);
-    writeOmplLog(measured, options, log);
+    writeOmplLog(measured, options, started_s, log);
     if (!log.flush()) throw InputError(arguments.log, "cannot be written");
   }
-  nlohmann::ordered_json planners = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < measured.planners.size(); ++i) {
-    planners.push_back(plannerJson(measured.planners[i], measured.runs[i]));
+  nlohmann::ordered_json worlds;
+  for (const std::string& world : options.worlds) {
+    worlds[world] = plannersJson(measured, world);
   }
+  const nlohmann::ordered_json planners = plannersJson(measured, "");
   printResult({{"success", true},
                {"object", options.object},
-               {"world", options.world},
-               {"problems", options.problems},
+               {"worlds", options.worlds},
+               {"problems_per_world", options.problems},
                {"seed", arguments.common.seed},
                {"planners", planners},
+               {"best_ompl", bestOfOmpl(measured, planners)},
+               {"by_world", worlds},
                {"timing", {{"wall_s", watch.seconds()}}}},
               arguments.common.json);
   return kExitSuccess;
@@ -93,14 +128,18 @@ void addPlanBench(CLI::App& bench, Run& run) {
   PlanBenchmarkOptions& options = arguments->options;
   command->add_option("--object", options.object, "Object by name or URDF file")
       ->capture_default_str();
-  command->add_option("--world", options.world, "World by name or YAML file")
+  command->add_option("--world,--worlds", options.worlds, "Worlds by name or YAML file, a,b,c")
+      ->delimiter(',')
       ->capture_default_str();
   command->add_option("--case-base", arguments->case_base, "SQLite file with the object's cases")
       ->required()
       ->check(notEmpty());
-  command->add_option("--planners", arguments->planners,
-                      "Which to compare, as in plan --planner; default: all");
-  command->add_option("--problems", options.problems, "Random problems")->capture_default_str();
+  command
+      ->add_option("--planners", arguments->planners,
+                   "Which to compare, as in plan --planner, a,b,c; default: all")
+      ->delimiter(',');
+  command->add_option("--problems", options.problems, "Random problems in each world")
+      ->capture_default_str();
   command->add_option("--deadline", options.deadline_s, "Wall seconds for each plan")
       ->capture_default_str();
   command->add_flag("--improve", options.improve,

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "casepush/common/input_error.h"
@@ -16,7 +17,19 @@ struct PlanArguments {
   bool paper = false;
   bool verify = false;
   int draws = 200;
+  bool anytime = false;
 };
+
+PushPlannerOptions optionsFor(const PlanArguments& arguments) {
+  PlannerArguments chosen = arguments.planner;
+  if (arguments.paper) chosen.planner = toString(PlannerKind::kExpRrtPaper);
+  PushPlannerOptions options = plannerOptions(chosen);
+  if (arguments.anytime) {
+    options.solutions = std::numeric_limits<int>::max();
+    options.improvement_extensions = std::numeric_limits<int>::max();
+  }
+  return options;
+}
 
 /// Wrong from the start, in contrast to a search without success.
 bool isBadRequest(PlanStatus status) {
@@ -72,9 +85,7 @@ nlohmann::ordered_json collisionJson(const PushPlan& plan) {
 int plan(const PlanArguments& arguments) {
   const Stopwatch watch;
   const Task task = prepareTask(arguments.task);
-  PlannerArguments chosen = arguments.planner;
-  if (arguments.paper) chosen.planner = toString(PlannerKind::kExpRrtPaper);
-  const PushPlannerOptions options = plannerOptions(chosen);
+  const PushPlannerOptions options = optionsFor(arguments);
   const PushPlanner planner(task.map, task.catalog.robot(task.problem.world.robot),
                             task.catalog.objectsIn(task.problem.world), options);
   const PlanRequest request =
@@ -136,6 +147,8 @@ void addPlanCommand(CLI::App& app, Run& run) {
   command->add_option("--draws", arguments->draws, "With --verify: random executions to test")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
+  command->add_flag("--anytime", arguments->anytime,
+                    "Use all the time until the deadline to look for a quicker plan (exp_rrt)");
   command->add_flag("--paper", arguments->paper, "The same as --planner exp_rrt_paper");
   command->callback([arguments, &run] { run = [arguments] { return plan(*arguments); }; });
 }

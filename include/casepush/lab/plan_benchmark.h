@@ -14,9 +14,9 @@ namespace casepush {
 
 struct PlanBenchmarkOptions {
   std::string object = "office_chair";
-  std::string world = "office";
+  std::vector<std::string> worlds = {"office"};
   std::vector<PlannerKind> planners = allPlannerKinds();
-  int problems = 30;
+  int problems = 30;         ///< In each world.
   double deadline_s = 10.0;  ///< For each plan.
   bool improve = false;      ///< Let planners go on after their first solution.
   std::uint64_t seed = 1;
@@ -25,6 +25,7 @@ struct PlanBenchmarkOptions {
 
 /// One planner on one problem.
 struct PlanRun {
+  std::string world;
   bool solved = false;
   double planning_s = 0.0;  ///< Wall time of the whole call, the robot's paths included.
   int pushes = 0;
@@ -37,8 +38,8 @@ struct PlanBenchmark {
   std::vector<std::vector<PlanRun>> runs;  ///< Of each planner, for each problem.
 };
 
-/// Random problems that a robot that drives could solve, each given to every planner in turn. A
-/// first call without measuring makes the masks, which planners of one object share.
+/// In each world random problems that a robot that drives could solve, each given to every planner
+/// in turn. A first call without measuring makes the masks, which planners of one object share.
 /// @param cases  Of the object, learnt by the world's robot.
 /// @param progress  Called with the number of finished problems.
 /// @throws InputError from the catalog, the world or validate().
@@ -48,7 +49,8 @@ PlanBenchmark comparePlanners(const Catalog& catalog, const std::vector<Case>& c
 
 /// In the format of OMPL's benchmark logs, which `ompl_benchmark_statistics.py` and Planner Arena
 /// read.
+/// @param started_s  When the benchmark began, in seconds since 1970.
 void writeOmplLog(const PlanBenchmark& benchmark, const PlanBenchmarkOptions& options,
-                  std::ostream& out);
+                  std::int64_t started_s, std::ostream& out);
 
 }  // namespace casepush

@@ -29,12 +29,16 @@ struct PreparedCase {
 /// Step of prepareCases in cells of the map: nothing of a cell's size slips through.
 constexpr double kStepPerCell = 0.5;
 
-/// Prepares cases for collision checking.
+/// Prepares a case for collision checking.
 ///
 /// Trajectories are re-sampled so that no point of the body moves more than `step_m` between
 /// neighbouring poses, and ordered coarse to fine, so that most collisions show early.
 /// @param zeta  Spread of the sigma points; 0 leaves the mean only.
-/// @pre Every case passes validateCase; step_m > 0.
+/// @pre The case passes validateCase; step_m > 0.
+PreparedCase prepareCase(const Case& push_case, double zeta, double step_m, double object_radius_m,
+                         double robot_radius_m);
+
+/// The same for several cases.
 std::vector<PreparedCase> prepareCases(const std::vector<Case>& cases, double zeta, double step_m,
                                        double object_radius_m, double robot_radius_m);
 

@@ -23,7 +23,7 @@ namespace casepush {
 struct PushPlannerOptions {
   PlannerKind planner = PlannerKind::kExpRrt;  ///< kExpRrtPaper: see forPlanner().
   Similarity similarity = Similarity::kMetric;
-  double goal_bias = 0.2;              ///< Probability that the sample is the goal (paper: 0.95).
+  double goal_bias = 0.8;              ///< Probability that the sample is the goal (paper: 0.95).
   int max_nodes = 50625;               ///< Paper section 6.
   double zeta = 3.0;                   ///< Spread of the sigma points (paper: 3).
   double object_margin_m = 0.0;        ///< Grows the object in every check.

@@ -20,9 +20,7 @@ class PushTime {
   PushTime(const std::vector<PreparedCase>& cases, const PushTimeOptions& options);
 
   /// Push `next` right after push `previous`, with the robot's way in between [s].
-  double after(int previous, int next) const {
-    return step_s_[static_cast<std::size_t>(previous) * count_ + next];
-  }
+  double after(int previous, int next) const;
 
   /// Push `next` first, with the robot standing at `object_T_robot` [s].
   double first(const Pose2& object_T_robot, int next) const;
@@ -31,13 +29,16 @@ class PushTime {
   double lowerBound(double distance_m) const;
 
  private:
+  static constexpr std::size_t kTabled = 256;  // With more cases a table would be too large.
+
   double drive(const Pose2& object_T_from, const Pose2& object_T_to) const;
 
   PushTimeOptions options_;
   std::size_t count_;
   std::vector<Pose2> begin_;        // object_T_robot where each push starts
+  std::vector<Pose2> end_;          // object_T_robot where each push ends
   std::vector<double> duration_s_;  // of each push
-  std::vector<double> step_s_;      // after(previous, next)
+  std::vector<double> step_s_;      // after(previous, next); empty with many cases
   double best_speed_mps_ = 0.0;     // of the object, over whole pushes with their handling
 };
 

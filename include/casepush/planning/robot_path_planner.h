@@ -38,6 +38,9 @@ struct RobotPath {
 /// clearance.
 class RobotPathPlanner {
  public:
+  /// The straight motion is tried first if the goal is this near.
+  static constexpr double kDirect_m = 0.5;
+
   RobotPathPlanner(RobotModel robot, RobotPathOptions options);
 
   /// @param checker  With every object that stands in the way set as an obstacle, also the one to

@@ -59,6 +59,16 @@ TEST_P(PlannerKindsTest, endsWhenCancelled) {
   EXPECT_EQ(result.status, PlanStatus::kCancelled) << result.explanation;
 }
 
+// Preparing them alone takes longer than this.
+TEST_P(PlannerKindsTest, endsSoonWithTenThousandCases) {
+  const auto planner = plannerFor(furnishedRoom(), options());
+  PlanRequest request = requestFor(kStart, kGoal);
+  request.deadline_s = 0.001;
+  const PlanResult result = planner->plan(request, syntheticPushes(10000, 7));
+  EXPECT_EQ(result.status, PlanStatus::kDeadline) << result.explanation;
+  EXPECT_EQ(result.nodes, 0);
+}
+
 TEST_P(PlannerKindsTest, noticesAGoalBehindWalls) {
   WorldModel world = emptyRoom();
   for (int side = 0; side < 4; ++side) {

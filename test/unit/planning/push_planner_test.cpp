@@ -192,11 +192,11 @@ TEST(PushPlanner, doesNotPlanPushesThatTheRobotCannotGetTo) {
 
 TEST(PushPlanner, saysWhenNothingLeadsToTheGoal) {
   PushPlannerOptions options = quick();
-  options.max_nodes = 20;
+  options.max_nodes = 10;
   const PlanResult result =
       plannerFor(furnishedRoom(), options)->plan(requestFor(kStart, kGoal), syntheticPushes(14, 7));
   EXPECT_EQ(result.status, PlanStatus::kUnreachable);
-  EXPECT_NE(result.explanation.find("no plan within 20 poses; raise max_nodes"), std::string::npos)
+  EXPECT_NE(result.explanation.find("no plan within 10 poses; raise max_nodes"), std::string::npos)
       << result.explanation;
 }
 

@@ -1,0 +1,283 @@
+// EXTEND of paper algorithm 1: which pair of node and case is tried next, and what comes of it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "exp_rrt.h"
+
+namespace casepush {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+// Even a single extension takes long if there are thousands of cases.
+bool ExpRrt::mustStop(std::size_t work) {
+  constexpr std::size_t kUnasked = 4096;
+  work_ += work;
+  if (work_ < kUnasked) {
+    return false;
+  }
+  work_ = 0;
+  return (*stop_)();
+}
+
+// No chain needs less time from there.
+double ExpRrt::remaining(const Pose2& pose) const {
+  return set_->time.lowerBound(distance(pose, goal_->pose()) - goal_->tolerance().position_m);
+}
+
+bool ExpRrt::isHopeless(double cost_s, const Pose2& pose) const {
+  return cost_s + remaining(pose) >= best_cost_s_;
+}
+
+// What is left by the guide, in the metric of the tree.
+double ExpRrt::expected(const Eigen::Vector2d& position_m, double yaw_rad) const {
+  const Pose2& goal = goal_->pose();
+  const double way_m =
+      guide_ != nullptr ? guide_->at(position_m) : (position_m - goal.position()).norm();
+  const double turn_m = options_.gyration_radius_m * wrapAngle(yaw_rad - goal.yaw());
+  return set_->time.lowerBound(std::hypot(way_m, turn_m) - goal_->tolerance().position_m);
+}
+
+void ExpRrt::noteBestEdge(int node) {
+  const PushNode& from = tree_.node(node);
+  const double cosine = std::cos(from.map_T_object.yaw());
+  const double sine = std::sin(from.map_T_object.yaw());
+  const double greed = isImproving() ? options_.improving_greed : options_.greed;
+  Edge best{kInfinity, node, -1};
+  for (int push = 0; push < static_cast<int>(set_->cases.size()); ++push) {
+    if (tree_.isTried(node, push)) {
+      continue;
+    }
+    const Pose2& moved = set_->cases[push].start_outcome.mean;
+    const Eigen::Vector2d end(from.map_T_object.x() + cosine * moved.x() - sine * moved.y(),
+                              from.map_T_object.y() + sine * moved.x() + cosine * moved.y());
+    const double cost_s = from.cost_s + pushCost(node, push);
+    const double straight_m = (end - goal_->pose().position()).norm();
+    const double least_s =
+        set_->time.lowerBound(straight_m - goal_->tolerance().position_m) + cost_s;
+    if (least_s >= best_cost_s_) {
+      continue;
+    }
+    const double key_s = cost_s + greed * expected(end, from.map_T_object.yaw() + moved.yaw());
+    if (key_s < best.key_s) {
+      best.key_s = key_s;
+      best.push = push;
+    }
+  }
+  if (best.push >= 0) {
+    edges_.push(best);
+  } else {
+    tree_.close(node);  // Nothing that is left can become cheaper.
+  }
+}
+
+// The most promising pair of node and case that is safe.
+std::optional<ExpRrt::Edge> ExpRrt::chooseEdge() {
+  while (!edges_.empty() && !mustStop(set_->cases.size())) {
+    const Edge edge = edges_.top();
+    edges_.pop();
+    if (!tree_.isOpen(edge.node)) {
+      continue;
+    }
+    if (tree_.isTried(edge.node, edge.push)) {
+      noteBestEdge(edge.node);
+      continue;
+    }
+    if (!isReachable(edge.node)) {
+      continue;
+    }
+    if (isSafe(edge.node, edge.push)) {
+      return edge;
+    }
+    if (tree_.isOpen(edge.node)) {
+      noteBestEdge(edge.node);
+    }
+  }
+  return std::nullopt;
+}
+
+// Asked before anything is pushed on from a node: most nodes of a tree never come so far.
+bool ExpRrt::isReachable(int node) {
+  if (is_approached_[node]) {
+    return true;
+  }
+  const PushNode& pushed = tree_.node(node);
+  const PushNode& from = tree_.node(pushed.parent);
+  const PreparedCase* previous = from.parent == PushNode::kRoot ? nullptr : &set_->cases[from.push];
+  if (can_approach_ && !can_approach_(from.map_T_object, previous, set_->cases[pushed.push])) {
+    tree_.removeLeaf(node);
+    return false;
+  }
+  is_approached_[node] = true;
+  return true;
+}
+
+// Alg. 1, COLLIDING. A push that is not safe counts as tried.
+bool ExpRrt::isSafe(int node, int push) {
+  const bool is_safe = checker_->isSafe(set_->cases[push], tree_.node(node).map_T_object);
+  if (!is_safe) {
+    tree_.markTried(node, push);
+  }
+  return is_safe;
+}
+
+// Alg. 1, EXTEND: the same answer as checking all cases first, with a fraction of the checks.
+int ExpRrt::chooseCase(int node, const Pose2& target) {
+  const Pose2& pose = tree_.node(node).map_T_object;
+  order_.clear();
+  for (int push = 0; push < static_cast<int>(set_->cases.size()); ++push) {
+    if (tree_.isTried(node, push)) {
+      continue;
+    }
+    const Pose2 outcome = pose * set_->cases[push].start_outcome.mean;
+    const double d2 = squaredPoseDistance(outcome, target, options_.gyration_radius_m);
+    order_.emplace_back(d2, push);
+  }
+  // A heap: mostly one of the first few is safe.
+  std::make_heap(order_.begin(), order_.end(), std::greater<>());
+  while (!order_.empty() && !mustStop(1)) {
+    const int push = order_.front().second;
+    if (isSafe(node, push)) {
+      return push;
+    }
+    std::pop_heap(order_.begin(), order_.end(), std::greater<>());
+    order_.pop_back();
+  }
+  return -1;
+}
+
+int ExpRrt::chooseCaseChecked(int node, const Pose2& target) {
+  const double reach_m = (max_m_ - min_m_).norm();
+  const Pose2& pose = tree_.node(node).map_T_object;
+  int best = -1;
+  std::pair<double, double> best_key{-1.0, 0.0};
+  for (int push = 0; push < static_cast<int>(set_->cases.size()); ++push) {
+    if (mustStop(1)) {
+      return -1;
+    }
+    if (tree_.isTried(node, push) || !isSafe(node, push)) {
+      continue;
+    }
+    const Pose2 outcome = pose * set_->cases[push].start_outcome.mean;
+    const std::pair<double, double> key{paperSimilarity(outcome, target, reach_m),
+                                        -distance(outcome, target)};
+    if (best < 0 || key > best_key) {
+      best = push;
+      best_key = key;
+    }
+  }
+  return best;
+}
+
+double ExpRrt::pushCost(int node, int push) const {
+  const int previous = tree_.node(node).push;
+  return previous < 0 ? set_->time.first(object_T_robot_, push) : set_->time.after(previous, push);
+}
+
+// @pre The push is safe, and the robot can get to those before it.
+ExpRrt::Growth ExpRrt::extend(int node, int push, int* added) {
+  PushNode child;
+  child.map_T_object = tree_.node(node).map_T_object * set_->cases[push].start_outcome.mean;
+  child.parent = node;
+  child.push = push;
+  child.cost_s = tree_.node(node).cost_s + pushCost(node, push);
+  const bool is_goal = goal_->tolerance().isMet(goal_->pose(), child.map_T_object);
+  const int id = isHopeless(child.cost_s, child.map_T_object) ? -1 : tree_.add(child, !is_goal);
+  if (id < 0) {
+    tree_.markPostponed(node, push);
+    return Growth::kNothing;
+  }
+  is_approached_.resize(tree_.size(), false);
+  tree_.markTried(node, push);
+  if (!is_goal) {
+    noteBestEdge(id);
+    if (added != nullptr) {
+      *added = id;
+    }
+    return Growth::kNothing;
+  }
+  return isReachable(id) ? addSolution(id) : Growth::kNothing;
+}
+
+ExpRrt::Growth ExpRrt::addSolution(int node) {
+  const bool is_first = solutions_.empty();
+  const auto cheaper = [this](int a, int b) { return tree_.node(a).cost_s < tree_.node(b).cost_s; };
+  solutions_.insert(std::upper_bound(solutions_.begin(), solutions_.end(), node, cheaper), node);
+  best_cost_s_ = tree_.node(solutions_.front()).cost_s;
+  if (is_first) {
+    noteAllEdges();
+  }
+  return Growth::kSolution;
+}
+
+void ExpRrt::noteAllEdges() {
+  edges_ = {};
+  const std::vector<int> open = tree_.openIds();
+  for (const int id : open) {
+    if (mustStop(set_->cases.size())) {
+      break;
+    }
+    noteBestEdge(id);
+  }
+}
+
+// Tries the chains that end in the goal region from here, the quickest first.
+ExpRrt::Growth ExpRrt::connect(int node) {
+  constexpr std::size_t kMostTries = 32;
+  if (options_.similarity == Similarity::kPaper) {
+    return Growth::kNothing;
+  }
+  const Pose2 start_T_goal = tree_.node(node).map_T_object.inverse() * goal_->pose();
+  const double reach_m = set_->chains.reach() + goal_->tolerance().position_m;
+  if (start_T_goal.position().squaredNorm() > reach_m * reach_m) {
+    return Growth::kNothing;
+  }
+  endings_.clear();
+  set_->chains.into(start_T_goal, goal_->tolerance(), &endings_);
+  order_.clear();
+  for (std::size_t i = 0; i < endings_.size(); ++i) {
+    const int first = endings_[i]->pushes.front();
+    const double cost_s = tree_.node(node).cost_s + pushCost(node, first) + endings_[i]->later_s;
+    if (cost_s < best_cost_s_ && !tree_.isTried(node, first)) {
+      order_.emplace_back(cost_s, static_cast<int>(i));
+    }
+  }
+  const std::size_t tries = std::min(order_.size(), kMostTries);
+  std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(tries),
+                    order_.end());
+  for (std::size_t i = 0; i < tries; ++i) {
+    if (!isReachable(node)) {
+      break;
+    }
+    if (follow(node, *endings_[order_[i].second]) == Growth::kSolution) {
+      return Growth::kSolution;
+    }
+  }
+  return Growth::kNothing;
+}
+
+ExpRrt::Growth ExpRrt::follow(int node, const CaseChain& chain) {
+  int at = node;
+  for (int i = 0; i < chain.count; ++i) {
+    const int push = chain.pushes[i];
+    if (tree_.isTried(at, push) || !isSafe(at, push)) {
+      break;
+    }
+    ++extension_count_;
+    int added = -1;
+    if (extend(at, push, &added) == Growth::kSolution) {
+      return Growth::kSolution;
+    }
+    if (added < 0 || !isReachable(added)) {
+      break;
+    }
+    at = added;
+  }
+  return Growth::kNothing;
+}
+
+}  // namespace casepush

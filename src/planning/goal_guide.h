@@ -1,0 +1,87 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "casepush/model/object_model.h"
+#include "casepush/world/collision_checker.h"
+#include "clearance_grid.h"
+
+namespace casepush {
+
+/// How much room a map leaves an object, in cells of about 20 cm. Made once for map and object.
+class ObjectRoom {
+ public:
+  ObjectRoom(const CollisionChecker::Columns& columns, const Solid& object);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  double cell() const { return cell_m_; }
+  Eigen::Vector2d centre(int cell) const {
+    return origin_m_ + cell_m_ * Eigen::Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
+  }
+  Eigen::Vector2d index(const Eigen::Vector2d& point_m) const {
+    return (point_m - origin_m_) / cell_m_;
+  }
+
+  /// What a metre through each cell counts: 1 in the open, up to kTight where only some headings
+  /// fit, 0 where the object's origin certainly cannot be.
+  std::vector<float> factors(const std::vector<PlacedSolid>& obstacles) const;
+
+  static constexpr double kTight = 3.0;
+
+ private:
+  float factor(double clearance_m) const;
+
+  Eigen::Vector2d origin_m_;
+  double cell_m_;
+  int width_;
+  int height_;
+  std::vector<TravelDisc> inner_;
+  double reach_m_;  ///< Of the object around its origin.
+  std::vector<float> factors_;
+};
+
+/// The rooms of all objects on one map, each made when it is first asked for. Thread-safe.
+class RoomLibrary {
+ public:
+  RoomLibrary(const CollisionChecker& map, const std::map<std::string, ObjectModel>& objects);
+
+  const ObjectRoom& get(const std::string& model);
+
+ private:
+  std::shared_ptr<const CollisionChecker::Columns> columns_;
+  const std::map<std::string, ObjectModel>& objects_;
+  std::mutex mutex_;
+  std::map<std::string, ObjectRoom> rooms_;
+};
+
+/// Roughly how far an object has to go to its goal from anywhere, around walls and obstacles and
+/// rather through wide places than narrow ones. It guides the search and bounds nothing.
+class GoalGuide {
+ public:
+  /// Looks a little farther than from goal to start, not over the whole of a large map.
+  GoalGuide(const ObjectRoom& room, const std::vector<PlacedSolid>& obstacles,
+            const Eigen::Vector2d& start_m, const Eigen::Vector2d& goal_m, double tolerance_m);
+
+  /// False only if there is certainly no way of the object's origin from start to the
+  /// goal region.
+  bool reachesStart() const { return reaches_start_; }
+
+  double at(const Eigen::Vector2d& point_m) const;  ///< [m]
+
+ private:
+  int cell(const Eigen::Vector2d& point_m) const;
+  bool spread(const std::vector<float>& factors, int start, const std::vector<int>& goals);
+
+  Eigen::Vector2d goal_m_;
+  const ObjectRoom& room_;
+  bool reaches_start_ = false;
+  std::vector<int> steps_;  // in kStep-ths of a cell, from each cell to the goal
+  int farthest_ = 0;        // steps of cells that were not looked at
+};
+
+}  // namespace casepush

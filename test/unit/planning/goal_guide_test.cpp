@@ -1,0 +1,52 @@
+#include "planning/goal_guide.h"
+
+#include <gtest/gtest.h>
+
+#include "planning/furnished_room.h"
+
+namespace casepush {
+namespace {
+
+const Eigen::Vector2d kStart(4.0, 7.0);
+const Eigen::Vector2d kGoal(11.0, 7.0);
+constexpr double kTolerance_m = 0.2;
+
+WorldModel roomWithWall(double length_m) {
+  WorldModel world = emptyRoom();
+  world.boxes.push_back(standing("wall", 7.5, 0.5 * length_m, 0.2, length_m, 1.5));
+  return world;
+}
+
+GoalGuide guideIn(const ObjectRoom& room, const std::vector<PlacedSolid>& obstacles = {}) {
+  return {room, obstacles, kStart, kGoal, kTolerance_m};
+}
+
+TEST(GoalGuide, isAboutTheStraightWayInTheOpen) {
+  const CollisionChecker checker(*mapOf(emptyRoom()));
+  const ObjectRoom room(checker.columns(), testChair().solid);
+  const GoalGuide guide = guideIn(room);
+  EXPECT_TRUE(guide.reachesStart());
+  EXPECT_NEAR(guide.at(kStart), 7.0, 0.4);
+  EXPECT_LT(guide.at(kGoal), 0.3);
+}
+
+TEST(GoalGuide, leadsAroundWallsAndObjects) {
+  const CollisionChecker checker(*mapOf(roomWithWall(11.0)));
+  const ObjectRoom room(checker.columns(), testChair().solid);
+  const double around_m = guideIn(room).at(kStart);
+  EXPECT_GT(around_m, 10.0);
+  // Chairs at the near side of the gap make the way longer.
+  const GoalGuide narrow = guideIn(room, {{testChair().solid, Pose2(7.5, 11.8, 0.0)},
+                                          {testChair().solid, Pose2(7.5, 12.8, 0.0)}});
+  EXPECT_TRUE(narrow.reachesStart());
+  EXPECT_GT(narrow.at(kStart), around_m + 0.3);
+}
+
+TEST(GoalGuide, seesThatThereIsNoWay) {
+  const CollisionChecker checker(*mapOf(roomWithWall(15.0)));
+  const ObjectRoom room(checker.columns(), testChair().solid);
+  EXPECT_FALSE(guideIn(room).reachesStart());
+}
+
+}  // namespace
+}  // namespace casepush
