@@ -83,11 +83,13 @@ struct LiveMap::Mask {
   Pose2 body_T_map;
   double margin_m;
 
-  bool covers(const Eigen::Vector3f& map_point) const {
+  /// @param most_m  Bounds the margin.
+  bool covers(const Eigen::Vector3f& map_point, double most_m) const {
     const Eigen::Vector2d point = body_T_map * Eigen::Vector2d(map_point.head<2>().cast<double>());
-    const double reach_m = body->reach_m + margin_m;
+    const double used_m = std::min(margin_m, most_m);
+    const double reach_m = body->reach_m + used_m;
     return point.squaredNorm() < reach_m * reach_m &&
-           casepush::covers(body->parts, point, map_point.z(), margin_m);
+           casepush::covers(body->parts, point, map_point.z(), used_m);
   }
 };
 
@@ -168,11 +170,21 @@ SensorRay LiveMap::rayTo(const Eigen::Vector3f& map_origin, const Eigen::Vector3
   const auto range_m = static_cast<float>(options_.max_range_m);
   if (offset.norm() > range_m) return {map_origin + range_m * offset.normalized(), false};
   SensorRay ray{map_point, map_point.z() > options_.floor_m && map_point.z() < options_.ceiling_m};
-  const bool masked = std::any_of(masks.begin(), masks.end(),
-                                  [&](const Mask& mask) { return mask.covers(map_point); });
+  const auto covered = [&](double most_m) {
+    return std::any_of(masks.begin(), masks.end(),
+                       [&](const Mask& mask) { return mask.covers(map_point, most_m); });
+  };
+  const bool masked = covered(std::numeric_limits<double>::infinity());
   if (masked) {
     ray.hit = false;
-    ray.blur_m = static_cast<float>(map_.resolution());
+    const auto cell_m = static_cast<float>(map_.resolution());
+    // What ends on the body itself frees its cell, too: that may hold what was seen of the body
+    // before it was known. Farther off a wall may stand in the cell.
+    if (covered(map_.resolution())) {
+      ray.map_end += cell_m * offset.normalized();
+    } else {
+      ray.blur_m = cell_m;
+    }
   }
   result->masked += masked ? 1 : 0;
   result->hits += ray.hit ? 1 : 0;
