@@ -16,7 +16,7 @@ std::shared_ptr<const CaseSet> setOf(const std::vector<Case>& cases) {
 
 TEST(CaseChains, findsJustTheChainsThatEndInTheRegion) {
   const auto set = setOf(syntheticPushes(14, 3));
-  const Pose2 goal(0.6, -0.4, 3.1);  // Where yaw wraps.
+  const Pose2 goal(0.6, -0.4, -0.9);
   const GoalTolerance tolerance{0.4, 0.6};
   std::vector<const CaseChain*> found;
   set->chains.into(goal, tolerance, &found);
