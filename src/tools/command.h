@@ -33,8 +33,9 @@ void addWorldCommand(CLI::App& app, Run& run);
 void addMapCommand(CLI::App& app, Run& run);
 void addBenchCommand(CLI::App& app, Run& run);
 void addPlanBench(CLI::App& bench, Run& run);  ///< Of addBenchCommand().
+void addMapBench(CLI::App& bench, Run& run);   ///< Of addBenchCommand().
 void addExperimentCommand(CLI::App& app, Run& run);
-void addTaskExperiments(CLI::App& experiment, Run& run);  ///< Of addExperimentCommand().
+void addTaskExperiments(CLI::App& experiment, Run& run);        ///< Of addExperimentCommand().
 void addUncertaintyExperiment(CLI::App& experiment, Run& run);  ///< Of addExperimentCommand().
 
 /// A finite number in [low, high]: unlike CLI::Range, no NaN.
