@@ -194,6 +194,11 @@ void ExecutorNode::tick(double now_s) {
     end(ActivityEnd::kStopped, "tracked poses (topic objects) ceased: is perception gone?");
     return;
   }
+  if (now_s - objects_stamp_s_ > parameters_.stale_objects_s && end_ == ActivityEnd::kFinished) {
+    // A behaviour whose commands are overridden would take the robot for held by something.
+    command_.publish(toMessage(safeCommand(*observation, Twist2{})));
+    return;
+  }
   const Tick result = activity_->tick(*observation);
   command_.publish(toMessage(safeCommand(*observation, result.command.twist)));
   if (result.status != BehaviourStatus::kRunning) {

@@ -130,10 +130,10 @@ class LockStepTest(unittest.TestCase):
         for k, stamp in enumerate(stamps):
             self.assertAlmostEqual(stamp, end_of_period(k + 1), places=6)
 
-    def test_a_command_holds_for_a_quarter_second_of_simulated_time(self):
+    def test_a_command_holds_for_a_fifth_of_a_second_of_simulated_time(self):
         world = self.planar
         world.restart()  # Odometry is noisy.
-        world.step(60, True, harness.twist(-0.4))
+        world.step(48, True, harness.twist(-0.4))
         world.catch_up()
         self.assertAlmostEqual(world.odometry.last().twist.twist.linear.x, -0.4, delta=0.05)
         world.step(48, False, Twist())

@@ -157,7 +157,7 @@ class PlannerNodeTest(unittest.TestCase):
         self.assertEqual(feedback[-1].best_cost, math.inf)
 
     def test_plans_with_any_planner(self):
-        for planner in ("exp_rrt_paper", "lattice", "ompl_rrt"):
+        for planner in ("exp_rrt", "exp_rrt_paper", "lattice"):
             result = self.solved(self.goal(planner=planner))
             self.assertEqual(result.status, PlanPushResult.SOLVED,
                              planner + ": " + result.explanation)
