@@ -8,6 +8,8 @@ namespace {
 constexpr double kWindowS = 0.16;
 // It must be so for three ticks at 50 Hz: single poses are off by millimetres.
 constexpr double kHoldS = 0.035;
+// The first command may take long to reach a base, so that a start counts only after this.
+constexpr double kStartS = 1.0;
 constexpr double kTimeSlackS = 1e-6;
 // Time without observations after which nothing is known of what the robot did.
 constexpr double kGapS = 0.1;
@@ -38,28 +40,34 @@ bool BlockedWatch::isBlocked(const Observation& observation, const Twist2& comma
   while (past_.size() > 1 && now_s - past_[1].stamp_s >= kWindowS - kTimeSlackS) {
     past_.pop_front();
   }
-  if (!hardlyMoves()) {
+  const Motion motion = lastMotion();
+  if (motion != Motion::kHeld) {
+    follows_ = motion == Motion::kFollows;
     held_since_s_.reset();
     return false;
   }
   held_since_s_ = held_since_s_.value_or(now_s);
-  return now_s - *held_since_s_ >= kHoldS;
+  return now_s - *held_since_s_ >= (follows_ ? kHoldS : kStartS);
 }
 
 void BlockedWatch::reset() {
   past_.clear();
   held_since_s_.reset();
+  follows_ = false;
 }
 
-bool BlockedWatch::hardlyMoves() const {
+BlockedWatch::Motion BlockedWatch::lastMotion() const {
   const Sample& then = past_.front();
   const Sample& now = past_.back();
   if (now.stamp_s - then.stamp_s < kWindowS - kTimeSlackS) {
-    return false;
+    return Motion::kUnknown;
   }
   const double commanded_m = travel(then.commanded, now.commanded);
   const double moved_m = travel(then.map_T_robot, now.map_T_robot);
-  return commanded_m > kLeastCommandedM && moved_m < kLeastShare * commanded_m;
+  if (commanded_m <= kLeastCommandedM) {
+    return Motion::kUnknown;
+  }
+  return moved_m < kLeastShare * commanded_m ? Motion::kHeld : Motion::kFollows;
 }
 
 }  // namespace casepush

@@ -7,8 +7,9 @@
 
 namespace casepush {
 
-/// Does something hold the robot? It does if the robot has hardly moved for a fifth of a second
-/// though it was told to. Goes by the robot's pose in the map: wheels may turn on the spot.
+/// Does something hold the robot? It does if the robot was moving and has hardly moved for a fifth
+/// of a second though it was told to; or if it does not start for a second. Goes by the robot's
+/// pose in the map: wheels may turn on the spot.
 class BlockedWatch {
  public:
   /// To be asked once a tick.
@@ -18,7 +19,8 @@ class BlockedWatch {
   void reset();
 
  private:
-  bool hardlyMoves() const;
+  enum class Motion { kUnknown, kFollows, kHeld };
+  Motion lastMotion() const;
 
   struct Sample {
     double stamp_s;
@@ -27,6 +29,7 @@ class BlockedWatch {
   };
   std::deque<Sample> past_;  ///< Oldest first; the first is as old as the time looked at, or older.
   std::optional<double> held_since_s_;
+  bool follows_ = false;  ///< The robot did what it was told before it was held.
 };
 
 }  // namespace casepush

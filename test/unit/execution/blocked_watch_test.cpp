@@ -73,7 +73,16 @@ TEST_F(BlockedWatchTest, aRobotThatTurnsBackIsNotBlocked) {
 TEST_F(BlockedWatchTest, knowsNothingOfTimeThatItHasNotSeen) {
   EXPECT_LT(drive({0.5, 0.0, 0.0}, 0.0, 0.18), 0.0);
   observation_.stamp_s += 5.0;
-  EXPECT_GT(drive({0.5, 0.0, 0.0}, 0.0, 1.0), 0.15);
+  EXPECT_GT(drive({0.5, 0.0, 0.0}, 0.0, 2.0), 0.15);
+}
+
+TEST_F(BlockedWatchTest, waitsForACommandToReachTheBase) {
+  EXPECT_LT(drive({0.5, 0.0, 0.0}, 0.0, 0.8), 0.0);
+  EXPECT_LT(drive({0.5, 0.0, 0.0}, 1.0, 0.5), 0.0);
+  EXPECT_LT(drive(Twist2{}, 0.0, 0.5), 0.0);
+  const double after_s = drive({0.5, 0.0, 0.0}, 0.0, 2.0);
+  EXPECT_GT(after_s, 1.0);
+  EXPECT_LT(after_s, 1.3);
 }
 
 }  // namespace
