@@ -8,6 +8,7 @@
 #include "casepush/common/random.h"
 #include "casepush/common/violations.h"
 #include "casepush/world/fcl_checker.h"
+#include "casepush/world/static_table.h"
 #include "casepush/world/sweep_checker.h"
 #include "thread_time.h"
 
@@ -18,6 +19,7 @@ constexpr double kRoom_m = 15.0;
 constexpr double kDoubt_m = 1e-4;
 constexpr int kPathPoses = 20;
 constexpr int kSigmaPoses = 6;
+constexpr std::size_t kTable = 4;  // Index of the static table's back-end.
 
 WorldModel randomRoom(Random& random) {
   WorldModel world;
@@ -115,6 +117,10 @@ class Measurement {
       result_.backends.push_back({name});
       cpu_s_.push_back(0.0);
     }
+    if (options.static_table) {
+      result_.backends.push_back({"static_table"});
+      cpu_s_.push_back(0.0);
+    }
   }
 
   void measureRoom(int tests) {
@@ -154,6 +160,7 @@ class Measurement {
     }
     result.mask_ms = 1e3 * mask_s_ / (rooms_ * options_.motions);
     result.map_ms = 1e3 * map_s_ / rooms_;
+    if (options_.static_table) addTableCost(&result);
     return result;
   }
 
@@ -163,6 +170,44 @@ class Measurement {
     for (int i = 0; i < kHeadings; ++i) {
       sweeps.mayCollide(sweep, {kRoom_m / 2.0, kRoom_m / 2.0, i * 2.0 * M_PI / kHeadings - M_PI});
     }
+  }
+
+  void addTableCost(CollisionBenchmark* result) const {
+    const double tests = 1.0 * result->tests * options_.motions;
+    const double table_s = cpu_s_[kTable];
+    CollisionBackend& backend = result->backends[kTable];
+    backend.tests_per_s = table_s > 0.0 ? tests / table_s : 0.0;
+    StaticTableCost& cost = result->static_table;
+    cost.build_s = table_build_s_ / rooms_;
+    cost.memory_mb = 1e-6 * static_cast<double>(table_bytes_) / rooms_;
+    cost.mask_tests_per_s = all_masks_s_ > 0.0 ? tests / all_masks_s_ : 0.0;
+    const double saved_s = all_masks_s_ - table_s;
+    cost.pays_from_tests = saved_s > 0.0 ? cost.build_s * tests / saved_s : 0.0;
+  }
+
+  /// Answers from a table, and how long the masks take for all that it answers.
+  std::vector<std::uint8_t> measureTable(const SweepChecker& sweeps,
+                                         const std::vector<std::unique_ptr<Sweep>>& prepared,
+                                         const std::vector<Test>& tests) {
+    std::vector<const Sweep*> motions;
+    for (const auto& sweep : prepared) motions.push_back(sweep.get());
+    double start_s = threadSeconds();
+    const StaticTable table(sweeps, motions);
+    table_build_s_ += threadSeconds() - start_s;
+    table_bytes_ += table.bytes();
+    std::vector<std::uint8_t> may(motions.size());
+    start_s = threadSeconds();
+    for (const Test& test : tests) {
+      for (std::size_t i = 0; i < motions.size(); ++i) {
+        may[i] = sweeps.mayCollide(*motions[i], test.map_T_start) ? 1 : 0;
+      }
+    }
+    all_masks_s_ += threadSeconds() - start_s;
+    std::vector<std::uint64_t> words(table.words());
+    return run(kTable, tests, [&](const Test& test) {
+      for (int w = 0; w < table.words(); ++w) words[w] = table.blocked(test.map_T_start, w);
+      return (words[test.motion / 64] >> test.motion % 64 & 1) != 0;
+    });
   }
 
   /// Called for every test of FCL, which takes nearly all of the time.
@@ -204,6 +249,7 @@ class Measurement {
     answers[3] = run(3, tests, [&](const Test& test) {
       return sweeps.mayCollide(*prepared[test.motion], test.map_T_start);
     });
+    if (options_.static_table) answers[kTable] = measureTable(sweeps, prepared, tests);
     result_.tests += static_cast<int>(tests.size());
     if (!FclChecker::isAvailable()) return;
     const FclChecker fcl(map);
@@ -242,6 +288,9 @@ class Measurement {
   std::vector<double> cpu_s_;
   double mask_s_ = 0.0;
   double map_s_ = 0.0;
+  double table_build_s_ = 0.0;
+  std::size_t table_bytes_ = 0;
+  double all_masks_s_ = 0.0;
   int rooms_ = 0;
 };
 

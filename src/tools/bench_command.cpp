@@ -144,6 +144,13 @@ std::string timeLeft(double spent_s, int done, int all) {
   return ", " + durationText(spent_s / done * (all - done)) + " left";
 }
 
+nlohmann::ordered_json tableJson(const StaticTableCost& cost) {
+  return {{"build_s", cost.build_s},
+          {"memory_mb", cost.memory_mb},
+          {"masks_for_all_pushes_tests_per_s", cost.mask_tests_per_s},
+          {"pays_from_tests", cost.pays_from_tests}};
+}
+
 int benchCollision(const CollisionArguments& arguments) {
   const Stopwatch watch;
   ProgressLine line;
@@ -165,18 +172,18 @@ int benchCollision(const CollisionArguments& arguments) {
                         {"missed", backend.missed},
                         {"extra", backend.extra}});
   }
-  printResult(
-      {{"success", missed == 0},
-       {"object", options.object},
-       {"robot", options.robot},
-       {"tests", measured.tests},
-       {"collisions", measured.collisions},
-       {"contacts", measured.contacts},
-       {"seed", arguments.common.seed},
-       {"backends", backends},
-       {"timing",
-        {{"mask_ms", measured.mask_ms}, {"map_ms", measured.map_ms}, {"wall_s", watch.seconds()}}}},
-      arguments.common.json);
+  nlohmann::ordered_json result{{"success", missed == 0},
+                                {"object", options.object},
+                                {"robot", options.robot},
+                                {"tests", measured.tests},
+                                {"collisions", measured.collisions},
+                                {"contacts", measured.contacts},
+                                {"seed", arguments.common.seed},
+                                {"backends", backends}};
+  if (options.static_table) result["static_table"] = tableJson(measured.static_table);
+  result["timing"] = {
+      {"mask_ms", measured.mask_ms}, {"map_ms", measured.map_ms}, {"wall_s", watch.seconds()}};
+  printResult(result, arguments.common.json);
   return missed == 0 ? kExitSuccess : kExitTaskFailed;
 }
 
@@ -199,6 +206,9 @@ void addCollisionBench(CLI::App& bench, Run& run) {
       ->capture_default_str();
   command->add_option("--resolution", options.resolution_m, "Cell of the OctoMap [m]")
       ->capture_default_str();
+  command->add_flag("--static-table", options.static_table,
+                    "Also measure a table made beforehand that answers for all pushes at a start "
+                    "at once");
   command->callback(
       [arguments, &run] { run = [arguments] { return benchCollision(*arguments); }; });
 }

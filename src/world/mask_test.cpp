@@ -2,34 +2,21 @@
 
 #include <cstring>
 
+#include "tile_words.h"
+
 namespace casepush {
 namespace {
 
-constexpr unsigned kBits = LayeredBitmap::kBits;
 constexpr int kStep = LayeredBitmap::kRowStep;
-using Words = std::uint64_t __attribute__((vector_size(64)));
-static_assert(sizeof(Words) == kStep * sizeof(std::uint64_t), "a tile is one vector");
-
-// One function, compiled for vectors of several lengths; the processor's is chosen at start-up.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define CASEPUSH_VECTORISED __attribute__((target_clones("avx512f", "avx2", "default")))
-#define CASEPUSH_INLINE inline __attribute__((always_inline))
-#else
-#define CASEPUSH_VECTORISED
-#define CASEPUSH_INLINE inline
-#endif
 
 /// Does a tile's mask meet the image there?
 CASEPUSH_INLINE bool meets(const std::uint64_t* mask, const std::uint64_t* image,
                            std::ptrdiff_t strip, unsigned shift) {
-  Words m;
-  Words low;
-  Words high;
+  TileWords m;
   std::memcpy(&m, mask, sizeof(m));
-  std::memcpy(&low, image, sizeof(low));
-  std::memcpy(&high, image + strip, sizeof(high));
-  // Shifted in two steps: a shift by all 64 bits is not defined.
-  const Words common = m & (low >> shift | (high << 1) << (kBits - 1 - shift));
+  TileWords cells;
+  readTile(image, strip, shift, &cells);
+  const TileWords common = m & cells;
   std::uint64_t all = 0;
   for (int k = 0; k < kStep; ++k) all |= common[k];
   return all != 0;

@@ -15,9 +15,9 @@
 namespace casepush {
 namespace {
 
-constexpr int kHeadings = Footprint::kHeadings;
-constexpr double kBin_rad = 2.0 * M_PI / kHeadings;
-constexpr int kMasks = kHeadings / 4;
+constexpr double kBin_rad = 2.0 * M_PI / Sweep::kHeadings;
+constexpr int kMasks = Sweep::kHeadings / 4;
+static_assert(Sweep::kHeadings == Footprint::kHeadings, "masks for the headings of footprints");
 
 }  // namespace
 
@@ -97,12 +97,17 @@ std::size_t Sweep::bytes() const { return data_->bytes; }
 
 double Sweep::reach() const { return data_->reach_m; }
 
-Sweep::Turned Sweep::mask(double yaw_rad) const {
+int Sweep::heading(double yaw_rad) {
   // Shifted by whole turns to where rounding towards zero rounds down.
   const int heading = static_cast<int>(yaw_rad * (1.0 / kBin_rad) + (0.5 + 4 * kHeadings));
-  const auto bin = static_cast<unsigned>(heading) & (kMasks - 1);
+  return static_cast<int>(static_cast<unsigned>(heading) & (kHeadings - 1));
+}
+
+Sweep::Turned Sweep::mask(double yaw_rad) const {
+  const auto at = static_cast<unsigned>(heading(yaw_rad));
+  const unsigned bin = at % kMasks;
   const SweepMask* ready = data_->ready[bin].load(std::memory_order_acquire);
-  return {ready != nullptr ? ready : data_->make(bin), heading / kMasks % (kHeadings / kMasks)};
+  return {ready != nullptr ? ready : data_->make(bin), static_cast<int>(at / kMasks)};
 }
 
 }  // namespace casepush

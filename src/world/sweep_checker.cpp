@@ -189,6 +189,10 @@ bool SweepChecker::place(const Sweep& sweep, const Pose2& map_T_start, Place* pl
   return true;
 }
 
+double SweepChecker::reach() const { return map_->reach_m; }
+
+const TurnedBitmaps& SweepChecker::mapImages() const { return map_->occupied; }
+
 std::uint64_t SweepChecker::fingerprint() const {
   return map_->occupied.fingerprint() * 3 + map_->filled.fingerprint() * 5 +
          around_->occupied.fingerprint() * 7;

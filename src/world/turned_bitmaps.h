@@ -8,6 +8,20 @@
 
 namespace casepush {
 
+/// Where a cell lies in an image of that size once it is turned clockwise by some quarters.
+inline CellIndex turned(CellIndex cell, CellIndex size, int quarter) {
+  switch (quarter) {
+    case 1:
+      return {cell.y, size.x - 1 - cell.x};
+    case 2:
+      return {size.x - 1 - cell.x, size.y - 1 - cell.y};
+    case 3:
+      return {size.y - 1 - cell.y, cell.x};
+    default:
+      return cell;
+  }
+}
+
 /// An image, and the same turned clockwise by one, two and three quarters: a mask for a heading
 /// serves the headings a quarter turn apart as well, on another image.
 class TurnedBitmaps {
@@ -28,24 +42,13 @@ class TurnedBitmaps {
 
   void set(int layer, CellIndex cell, bool value = true) {
     for (int q = 0; q < kQuarters; ++q) {
-      const CellIndex turned = turn(cell, q);
-      images_[q].set(layer, turned.x, turned.y, value);
+      const CellIndex at = turn(cell, q);
+      images_[q].set(layer, at.x, at.y, value);
     }
   }
 
   /// Where a cell lies in an image.
-  CellIndex turn(CellIndex cell, int quarter) const {
-    switch (quarter) {
-      case 1:
-        return {cell.y, size_.x - 1 - cell.x};
-      case 2:
-        return {size_.x - 1 - cell.x, size_.y - 1 - cell.y};
-      case 3:
-        return {size_.y - 1 - cell.y, cell.x};
-      default:
-        return cell;
-    }
-  }
+  CellIndex turn(CellIndex cell, int quarter) const { return turned(cell, size_, quarter); }
   /// Which cell lies there.
   CellIndex turnBack(CellIndex cell, int quarter) const {
     switch (quarter) {

@@ -16,6 +16,7 @@ struct CollisionBenchmarkOptions {
   int rooms = 10;       ///< 15 x 15 m, each with 34 to 45 boxes of random sizes, tilts and heights.
   int motions = 14;     ///< Pushes to choose from in each room.
   double resolution_m = 0.05;
+  bool static_table = false;  ///< Measure a StaticTable of all pushes as well.
   std::uint64_t seed = 1;
   void validate() const;  ///< @throws InputError listing every violation.
 };
@@ -28,8 +29,20 @@ struct CollisionBackend {
   int extra = 0;             ///< Collisions that it sees and FCL does not.
 };
 
+/// A StaticTable asked for all pushes at a start at once, as for all cases at a node of a search.
+struct StaticTableCost {
+  double build_s = 0.0;  ///< For one room, all masks included; by the thread's CPU time.
+  double memory_mb = 0.0;
+  double mask_tests_per_s = 0.0;  ///< The masks, asked for the same, one push after the other.
+  /// Tests on one map for which the masks take as long as the table with its making; 0: never.
+  double pays_from_tests = 0.0;
+};
+
 struct CollisionBenchmark {
-  std::vector<CollisionBackend> backends;  ///< The first one is FCL on the OctoMap.
+  /// The first one is FCL on the OctoMap. With a static table it is the last one; its tests_per_s
+  /// count every push at every start.
+  std::vector<CollisionBackend> backends;
+  StaticTableCost static_table;
   int tests = 0;
   int collisions = 0;    ///< By FCL.
   int contacts = 0;      ///< Where growing or shrinking the shapes by 0.1 mm decides; they

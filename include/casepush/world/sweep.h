@@ -59,6 +59,10 @@ class Sweep {
   Sweep& operator=(const Sweep&) = delete;
 
   const std::vector<Track>& tracks() const;
+  static constexpr int kHeadings = 128;
+  /// Which of the kHeadings bins a heading lies in; bin 0 is the one around 0. @pre It is finite.
+  static int heading(double yaw_rad);
+
   double reach() const;  ///< No covered point is farther from the start [m].
 
   /// A pose of a track, ready to take points to the body's frame.

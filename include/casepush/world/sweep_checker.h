@@ -11,6 +11,7 @@ namespace casepush {
 
 struct CellBox;
 struct MapColumns;
+class TurnedBitmaps;
 
 /// Tests whole motions at once against a map and obstacles.
 ///
@@ -54,6 +55,9 @@ class SweepChecker {
 
   const CollisionChecker& collisions() const { return checker_; }
   const std::shared_ptr<const HeightClasses>& classes() const { return classes_; }
+  double reach() const;  ///< Sweeps that reach farther are tested pose by pose [m].
+  /// What the map occupies in each class of heights, without obstacles.
+  const TurnedBitmaps& mapImages() const;
 
  private:
   struct Images;
