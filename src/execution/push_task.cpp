@@ -42,6 +42,7 @@ void PushTask::Data::end(PushTaskStatus final_status, const std::string& why) {
   if (stage == Stage::kPlan) {
     services.plans->cancel();
   }
+  clear.reset();
   stage = Stage::kDone;
   status = final_status;
   progress.phase = "done";
@@ -91,23 +92,25 @@ Tick PushTask::Data::searchOn(const Observation& observation) {
 
 void PushTask::Data::requestPlan(const Observation& observation, const ObjectState& object) {
   request = planRequest(goal, options, observation, object, progress.plans);
+  request.obstacles = obstacles(observation);
   services.plans->request(request);
   enter(Stage::kPlan, "planning", "planning", observation.stamp_s);
 }
 
 Tick PushTask::Data::awaitPlan(const Observation& observation) {
   const std::optional<PlanResult> result = services.plans->poll();
-  if (!result) {
+  if (!result || asksForWayAround(*result, observation)) {
     return {};
   }
+  const PlanResult chosen = through ? quicker(*result, observation) : *result;
   ++progress.plans;
   if (services.on_plan) {
-    services.on_plan(*result);
+    services.on_plan(chosen);
   }
-  if (result->status == PlanStatus::kSolved && !result->plan.pushes.empty()) {
-    acceptPlan(*result, observation);
+  if (chosen.status == PlanStatus::kSolved && !chosen.plan.pushes.empty()) {
+    acceptPlan(chosen, observation);
   } else {
-    rejectPlan(*result, observation);
+    rejectPlan(chosen, observation);
   }
   return {};
 }
@@ -168,6 +171,8 @@ Tick PushTask::Data::step(const Observation& observation) {
       return searchOn(observation);
     case Stage::kPlan:
       return awaitPlan(observation);
+    case Stage::kClear:
+      return clearOn(observation);
     case Stage::kPush:
       return pushOn(observation);
     case Stage::kDone:
@@ -187,7 +192,7 @@ Tick PushTask::Data::run(const Observation& observation) {
   }
   const RobotWatch::Status robot_status = robot_watch.check(observation);
   if (!std::isfinite(observation.stamp_s)) {
-    return push ? push->tick(observation) : Tick{};
+    return push ? push->tick(observation) : clear ? clear->tick(observation) : Tick{};
   }
   if (!began_s) {
     began_s = observation.stamp_s;
@@ -200,7 +205,8 @@ Tick PushTask::Data::run(const Observation& observation) {
   } else if (observation.stamp_s - *began_s > goal.time_limit_s) {
     end(PushTaskStatus::kTimeout,
         "time is up: still " + errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad));
-  } else if (robot_status == RobotWatch::Status::kFresh || stage == Stage::kPush) {
+  } else if (robot_status == RobotWatch::Status::kFresh || stage == Stage::kPush ||
+             stage == Stage::kClear) {
     // A push has to know that the robot was stopped, so it sees stale poses too.
     measure(observation);
     return step(observation);

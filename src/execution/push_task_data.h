@@ -2,7 +2,9 @@
 
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "casepush/execution/push_task.h"
 #include "watches.h"
@@ -12,7 +14,7 @@ namespace casepush {
 /// What PushTask is made of: the stages are in push_task.cpp, what happens to a plan's pushes in
 /// push_task_pushes.cpp.
 struct PushTask::Data {
-  enum class Stage { kLook, kSearch, kPlan, kPush, kDone };
+  enum class Stage { kLook, kSearch, kPlan, kClear, kPush, kDone };
 
   Data(PushTaskGoal push_goal, RobotModel robot_model, PushTaskServices outside,
        const PushTaskOptions& task_options);
@@ -35,6 +37,9 @@ struct PushTask::Data {
   std::optional<PushPlan> plan;  ///< Its first push is the next one.
   PlanRequest request;
   std::optional<ExecutePush> push;
+  std::optional<PlanResult> through;  ///< A plan through movable objects, while one around is made.
+  std::optional<ClearWay> clear;
+  std::set<std::string> immovable;  ///< What could not be cleared away.
   std::optional<ObjectState> last_seen;
   std::optional<ObjectSearch> search;
   int searches = 0;
@@ -49,6 +54,12 @@ struct PushTask::Data {
   Tick searchOn(const Observation& observation);
   Tick awaitPlan(const Observation& observation);
   Tick pushOn(const Observation& observation);
+  Tick clearOn(const Observation& observation);
+  bool isMovable(const PlacedObject& object) const;
+  std::vector<PlacedObject> obstacles(const Observation& observation) const;
+  bool asksForWayAround(const PlanResult& result, const Observation& observation);
+  PlanResult quicker(const PlanResult& around, const Observation& observation);
+  bool beginClearing(const Observation& observation);
   void enter(Stage next, const char* phase, const std::string& what, double now_s);
   void end(PushTaskStatus final_status, const std::string& why);
   void requestPlan(const Observation& observation, const ObjectState& object);

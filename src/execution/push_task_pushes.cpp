@@ -44,6 +44,9 @@ void PushTask::Data::startPush(const Observation& observation) {
   if (isLimitReached()) {
     return;
   }
+  if (beginClearing(observation)) {
+    return;
+  }
   failed_plans = 0;
   ++progress.push_index;
   push.emplace(goal.object_id, *found, robot, services.approach, options.push);
@@ -135,8 +138,8 @@ void PushTask::Data::judgeOutcome(const PushReport& report, const Observation& o
 
 void PushTask::Data::goOn(const PushReport& report, const ObjectState& object,
                           const Observation& observation) {
-  const PushPlanner::Continuation rest_of_plan = services.continue_plan(
-      *plan, object.map_T_object, services.cases(), otherObjects(observation, goal.object_id));
+  const PushPlanner::Continuation rest_of_plan =
+      services.continue_plan(*plan, object.map_T_object, services.cases(), obstacles(observation));
   const RestVerdict verdict = judgeRest(rest_of_plan, options.rest);
   if (verdict.goes_on) {
     plan = rest_of_plan.plan;

@@ -48,6 +48,7 @@ const char* toString(RestRule rule) {
 
 void PushTaskOptions::validate() const {
   push.validate();
+  clear.validate();
   search.validate();
   Violations violations;
   violations.require("max_replans", max_replans, 0, 100000);
@@ -116,7 +117,6 @@ PlanRequest planRequest(const PushTaskGoal& goal, const PushTaskOptions& options
   request.tolerance.position_m *= options.goal_share;
   request.tolerance.yaw_rad *= options.goal_share;
   request.map_T_robot = observation.map_T_robot;
-  request.obstacles = otherObjects(observation, goal.object_id);
   // 31 bits, so that the seed passes through every message and file as a number.
   request.seed = Random::stream(goal.seed, "plan " + std::to_string(plan_number)).below(1u << 31);
   request.deadline_s = options.plan_deadline_s;

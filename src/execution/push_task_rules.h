@@ -20,7 +20,7 @@ bool isSafelyAtGoal(const PushTaskGoal& goal, const ObjectState& object,
                     const PushTaskOptions& options);
 
 /// What to ask the planner for: the inner part of the tolerance, with a seed of its own for each
-/// plan.
+/// plan. Without obstacles.
 PlanRequest planRequest(const PushTaskGoal& goal, const PushTaskOptions& options,
                         const Observation& observation, const ObjectState& object, int plan_number);
 

@@ -20,6 +20,8 @@ const char* toString(ReplanCause cause) {
       return "push_failed";
     case ReplanCause::kObjectMoved:
       return "object_moved";
+    case ReplanCause::kObstacleStuck:
+      return "obstacle_stuck";
   }
   return "unknown";
 }

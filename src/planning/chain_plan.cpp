@@ -26,12 +26,14 @@ struct Ban {
   }
 };
 
-PushPlan makePlan(const SearchProblem& problem, const std::vector<PreparedCase>& cases,
-                  const std::vector<int>& pushes, const SafetyLevel& safety) {
+}  // namespace
+
+PushPlan planOf(const PlanRequest& request, const std::vector<PreparedCase>& cases,
+                const std::vector<int>& pushes, const SafetyLevel& safety) {
   PushPlan plan;
-  plan.object = problem.request.object;
-  plan.map_T_goal = problem.request.map_T_goal;
-  plan.tolerance = problem.request.tolerance;
+  plan.object = request.object;
+  plan.map_T_goal = request.map_T_goal;
+  plan.tolerance = request.tolerance;
   plan.zeta = safety.zeta;
   plan.max_collision_probability = safety.max_collision_probability;
   Pose2 pose = plan.object.map_T_object;
@@ -41,8 +43,6 @@ PushPlan makePlan(const SearchProblem& problem, const std::vector<PreparedCase>&
   }
   return plan;
 }
-
-}  // namespace
 
 ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
                     const SearchClock& clock) {
@@ -68,7 +68,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
   if (problem.options.improvement_extensions == 0) lattice.weights.resize(1);
   if (request.tolerance.isMet(request.map_T_goal, request.object.map_T_object)) {
     made.end = PlanSearch::End::kFound;
-    made.plan = makePlan(problem, cases, {}, safety);
+    made.plan = planOf(request, cases, {}, safety);
     made.nodes = 1;
     return made;
   }
@@ -122,7 +122,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
     }
     if (!reachable) continue;
     made.end = PlanSearch::End::kFound;
-    made.plan = makePlan(problem, cases, result.pushes, safety);
+    made.plan = planOf(request, cases, result.pushes, safety);
     if (safety.max_collision_probability) assessPlan(risk, result.pushes, &made.plan);
     made.expected_s = result.cost_s;
     made.bound = result.bound;

@@ -11,7 +11,7 @@
 #include "chain_plan.h"
 #include "plan_request.h"
 #include "plan_search.h"
-#include "sweep_library.h"
+#include "planner_data.h"
 
 namespace casepush {
 namespace {
@@ -125,45 +125,6 @@ PlanResult failed(PlanStatus status, std::string explanation) {
 
 }  // namespace
 
-struct PushPlanner::Data {
-  struct Footprints {
-    std::shared_ptr<const Footprint> exact;
-    std::shared_ptr<const Footprint> grown;
-    std::shared_ptr<const SweepChecker> sweeps;  ///< Of the grown object and the robot on the map.
-  };
-
-  std::shared_ptr<const Map> map;
-  RobotModel robot;
-  ObjectModels objects;
-  PushPlannerOptions options;
-  CollisionChecker checker;
-  RobotPathPlanner paths;
-  std::shared_ptr<const Footprint> robot_footprint;
-  std::map<std::string, Footprints> footprints;
-  std::unique_ptr<SweepLibrary> library;
-  std::unique_ptr<ApproachLibrary> approaches;
-  std::unique_ptr<CaseSetLibrary> case_sets;
-  std::unique_ptr<RoomLibrary> rooms;
-
-  CollisionChecker checkerWith(const std::vector<PlacedSolid>& obstacles) const {
-    CollisionChecker copy = checker;
-    copy.setObstacles(obstacles);
-    return copy;
-  }
-
-  PushChecker pushChecker(const std::string& model,
-                          const std::vector<PlacedSolid>& obstacles) const {
-    return PushChecker(
-        footprints.at(model).sweeps->withObstaclesOf(checkerWith(obstacles)),
-        {footprints.at(model).grown, objects.at(model).radius_m + options.object_margin_m},
-        {robot_footprint, robot.radius_m + options.robot_margin_m});
-  }
-
-  PlanResult search(const PlanRequest& request, const std::vector<const Case*>& cases,
-                    const SearchClock& clock) const;
-  void chain(const std::vector<Case>& cases, PushChecker* push_checker, Continuation* rest) const;
-};
-
 PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
                          std::map<std::string, ObjectModel> objects, PushPlannerOptions options) {
   CASEPUSH_CHECK(map != nullptr, "no map");
@@ -240,6 +201,25 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
   return result;
 }
 
+SearchProblem PushPlanner::Data::problem(const PlanRequest& request,
+                                         const std::vector<const Case*>& cases,
+                                         const std::vector<PlacedSolid>& obstacles) const {
+  const Footprints& own = footprints.at(request.object.model);
+  return {request,
+          cases,
+          objects.at(request.object.model),
+          robot,
+          options,
+          paths,
+          obstacles,
+          [this, &own](std::vector<PreparedCase>* prepared) {
+            library->attach(own.sweeps->classes(), own.grown, robot_footprint, prepared);
+          },
+          approaches.get(),
+          case_sets.get(),
+          rooms->get(request.object.model)};
+}
+
 PlanResult PushPlanner::Data::search(const PlanRequest& request,
                                      const std::vector<const Case*>& cases,
                                      const SearchClock& clock) const {
@@ -250,20 +230,7 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
     return failed(problem->status, problem->explanation);
   }
   push_checker.tolerateStart(request.object.map_T_object);
-  const SearchProblem problem{request,
-                              cases,
-                              objects.at(request.object.model),
-                              robot,
-                              options,
-                              paths,
-                              obstacles,
-                              [this, &own](std::vector<PreparedCase>* prepared) {
-                                library->attach(own.sweeps->classes(), own.grown, robot_footprint,
-                                                prepared);
-                              },
-                              approaches.get(),
-                              case_sets.get(),
-                              rooms->get(request.object.model)};
+  const SearchProblem problem = this->problem(request, cases, obstacles);
   PlanResult result;
   const GoalGuide guide(problem.room, obstacles, request.object.map_T_object.position(),
                         request.map_T_goal.position(), request.tolerance.position_m);

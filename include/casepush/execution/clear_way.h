@@ -22,12 +22,22 @@ struct ClearWayOptions {
 struct ClearWayServices {
   /// Ids of the movable objects that the plan's next push, or the robot's way to it, would hit.
   std::function<std::vector<std::string>(const PushPlan&, const Observation&)> blockers;
+  /// The same for all pushes of a plan, among the given objects, without the robot's ways.
+  std::function<std::vector<std::string>(const PushPlan&, const std::vector<PlacedObject>&)>
+      in_the_way;
   std::function<ClearingResult(const ClearingRequest&)> clear;
   std::function<bool(const PlacedObject&)> is_movable;  ///< Are its cases known?
   std::function<std::vector<Case>(const std::string& model)> cases;
   std::function<ApproachPlanner(const std::string& object_id)> approach;
   std::function<void(const PushReport&)> on_report;  ///< Called once for each push.
 };
+
+/// All of them but on_report from a planner.
+/// @param planner  Must outlive the result.
+/// @param cases    Current cases of all objects; an object without cases of this robot is not
+///   movable.
+ClearWayServices clearWayServices(const PushPlanner& planner, const std::string& robot,
+                                  std::function<std::vector<Case>()> cases);
 
 /// Pushes movable obstacles out of the way of a plan's next push (paper section 4).
 ///

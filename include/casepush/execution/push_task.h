@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "casepush/execution/clear_way.h"
 #include "casepush/execution/execute_push.h"
 #include "casepush/execution/object_search.h"
 #include "casepush/execution/replan_cause.h"
@@ -33,6 +34,7 @@ struct PushTaskGoal {
   GoalTolerance tolerance;
   double time_limit_s = 900.0;  ///< Simulated or real seconds, by the observations' stamps.
   bool adapt = true;            ///< Let the pushes of this task adapt the cases.
+  bool clear_obstacles = true;  ///< Push movable objects out of the way where that is faster.
   std::uint64_t seed = 1;
 };
 
@@ -59,6 +61,7 @@ struct RestOptions {
 
 struct PushTaskOptions {
   ExecutePushOptions push;
+  ClearWayOptions clear;
   bool break_off = true;  ///< Switches push.tube on.
   ObjectSearchOptions search;
   RestOptions rest;
@@ -80,10 +83,11 @@ struct PushTaskOptions {
 struct PushTaskProgress {
   /// "look", "search", "planning", "approach", "dock", "push", "rest" or "done".
   std::string phase;
-  int push_index = 0;   ///< Of the current plan, from 1.
-  int push_count = 0;   ///< Of the current plan.
-  int pushes = 0;       ///< Executed in all.
-  int idle_pushes = 0;  ///< The last ones, in a row, that did not move the object.
+  int push_index = 0;       ///< Of the current plan, from 1.
+  int push_count = 0;       ///< Of the current plan.
+  int pushes = 0;           ///< Executed in all, but for those of obstacles.
+  int clearing_pushes = 0;  ///< That brought other objects out of the way.
+  int idle_pushes = 0;      ///< The last ones, in a row, that did not move the object.
   int plans = 0;
   int replans = 0;  ///< Plans whose rest was given up for another plan.
   ReplanCounts replan_causes;
@@ -108,7 +112,9 @@ struct PushTaskServices {
                                          ///< must outlive the task.
   ContinuePlan continue_plan;  ///< To be given if the planner may be replaced, e.g. by a new map.
   ApproachPlanner approach;
-  std::function<std::vector<Case>()> cases;          ///< Current cases of the object.
+  std::function<std::vector<Case>()> cases;  ///< Current cases of all objects.
+  /// What pushing others out of the way takes; absent: they stand still. on_report is that below.
+  std::optional<ClearWayServices> clearing;
   std::function<void(const PushReport&)> on_report;  ///< Called once for each push.
   std::function<void(const PlanResult&)> on_plan;    ///< Called once for each plan, also failed.
 };

@@ -14,11 +14,12 @@ enum class ReplanCause {
   kApproachFailed,      ///< The robot did not get to where the next push starts.
   kPushFailed,          ///< The push did not end well: object lost, no rest, robot stuck.
   kObjectMoved,         ///< The object was moved while the plan was made.
+  kObstacleStuck,       ///< Another object could not be pushed out of the way.
 };
 inline constexpr ReplanCause kReplanCauses[] = {
     ReplanCause::kPredictionRejected, ReplanCause::kLeftTube,        ReplanCause::kRestMissesGoal,
     ReplanCause::kRestCollides,       ReplanCause::kEndedBesideGoal, ReplanCause::kApproachFailed,
-    ReplanCause::kPushFailed,         ReplanCause::kObjectMoved,
+    ReplanCause::kPushFailed,         ReplanCause::kObjectMoved,     ReplanCause::kObstacleStuck,
 };
 
 /// As in JSON: "prediction_rejected", "left_tube", ...

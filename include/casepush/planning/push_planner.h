@@ -11,6 +11,7 @@
 #include "casepush/model/object_model.h"
 #include "casepush/model/push_plan.h"
 #include "casepush/model/robot_model.h"
+#include "casepush/planning/clearing.h"
 #include "casepush/planning/planner_kind.h"
 #include "casepush/planning/push_time.h"
 #include "casepush/planning/risk_options.h"
@@ -91,6 +92,27 @@ class PushPlanner {
   Continuation continuePlan(const PushPlan& rest, const Pose2& map_T_object,
                             const std::vector<Case>& cases,
                             const std::vector<PlacedObject>& obstacles) const;
+
+  /// Ids of the obstacles that the plan's next pushes would hit (its object on its way or at the
+  /// sigma points of its outcome, or the robot pushing it), the nearest to the object first.
+  /// @param count  How many pushes; negative: all.
+  std::vector<std::string> inTheWay(const PushPlan& plan, const std::vector<Case>& cases,
+                                    const std::vector<PlacedObject>& obstacles,
+                                    int count = -1) const;
+
+  /// Ids of those of the movable objects that stand where the robot would drive to `map_T_goal`
+  /// without them. Empty if it gets there anyway, or not even then.
+  /// @param standing  Others that stand still.
+  std::vector<std::string> inTheRobotsWay(const PlacedObject& object,
+                                          const std::vector<PlacedObject>& movable,
+                                          const std::vector<PlacedObject>& standing,
+                                          const Pose2& map_T_robot, const Pose2& map_T_goal,
+                                          double dock_direction_rad) const;
+
+  /// Pushes that bring an obstacle out of the ways of plans (paper section 4).
+  /// @param cases  Of all objects concerned.
+  ClearingResult clear(const ClearingRequest& request, const std::vector<Case>& cases,
+                       const std::function<bool()>& stop = {}) const;
 
   /// Path of the robot to a push's start pose among map, obstacles and the object itself.
   RobotPath approachPath(const PlacedObject& object, const std::vector<PlacedObject>& obstacles,

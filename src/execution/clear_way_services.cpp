@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "casepush/execution/clear_way.h"
+#include "watches.h"
+
+namespace casepush {
+namespace {
+
+/// Of the other objects of an observation, those that can be pushed and those that cannot.
+struct Others {
+  std::vector<PlacedObject> movable;
+  std::vector<PlacedObject> standing;
+};
+
+Others othersOf(const Observation& observation, const std::string& but_id,
+                const std::function<bool(const PlacedObject&)>& is_movable) {
+  Others others;
+  for (const PlacedObject& object : otherObjects(observation, but_id)) {
+    (is_movable(object) ? others.movable : others.standing).push_back(object);
+  }
+  return others;
+}
+
+/// Who stands where the robot would drive to the plan's next push.
+std::vector<std::string> inTheRobotsWay(const PushPlanner& planner, const PushPlan& plan,
+                                        const std::vector<Case>& cases, const Others& others,
+                                        const Pose2& map_T_robot) {
+  const PlannedPush& next = plan.pushes.front();
+  const auto found = std::find_if(cases.begin(), cases.end(),
+                                  [&next](const Case& each) { return each.id == next.case_id; });
+  if (found == cases.end()) return {};
+  const Pose2 map_T_begin = next.map_T_start * found->steps.front().start_T_robot();
+  const double direction_rad = wrapAngle(next.map_T_start.yaw() + pushDirection(*found));
+  const PlacedObject object{plan.object.id, plan.object.model, next.map_T_start};
+  return planner.inTheRobotsWay(object, others.movable, others.standing, map_T_robot, map_T_begin,
+                                direction_rad);
+}
+
+}  // namespace
+
+ClearWayServices clearWayServices(const PushPlanner& planner, const std::string& robot,
+                                  std::function<std::vector<Case>()> cases) {
+  ClearWayServices services;
+  services.cases = [cases, robot](const std::string& model) {
+    std::vector<Case> own;
+    for (Case& each : cases()) {
+      if (isFor(each, model, robot)) own.push_back(std::move(each));
+    }
+    return own;
+  };
+  services.is_movable = [cases, robot](const PlacedObject& object) {
+    const std::vector<Case> all = cases();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Case& each) { return isFor(each, object.model, robot); });
+  };
+  services.in_the_way = [&planner, cases](const PushPlan& plan,
+                                          const std::vector<PlacedObject>& objects) {
+    return planner.inTheWay(plan, cases(), objects);
+  };
+  const auto is_movable = services.is_movable;
+  services.blockers = [&planner, cases, is_movable](const PushPlan& plan,
+                                                    const Observation& observation) {
+    if (plan.pushes.empty()) return std::vector<std::string>{};
+    const std::vector<Case> all = cases();
+    const Others others = othersOf(observation, plan.object.id, is_movable);
+    std::vector<std::string> ids = planner.inTheWay(plan, all, others.movable, 1);
+    if (!ids.empty()) return ids;
+    return inTheRobotsWay(planner, plan, all, others, observation.map_T_robot);
+  };
+  services.clear = [&planner, cases](const ClearingRequest& request) {
+    return planner.clear(request, cases());
+  };
+  services.approach = [&planner](const std::string& id) { return approachPlanner(planner, id); };
+  return services;
+}
+
+}  // namespace casepush

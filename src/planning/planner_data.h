@@ -1,0 +1,66 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "approach_check.h"
+#include "case_set.h"
+#include "casepush/planning/push_checker.h"
+#include "casepush/planning/push_planner.h"
+#include "goal_guide.h"
+#include "plan_request.h"
+#include "plan_search.h"
+#include "sweep_library.h"
+
+namespace casepush {
+
+/// What PushPlanner keeps for one map: plans are made in push_planner.cpp, ways cleared in
+/// way_clearing.cpp.
+struct PushPlanner::Data {
+  struct Footprints {
+    std::shared_ptr<const Footprint> exact;
+    std::shared_ptr<const Footprint> grown;
+    std::shared_ptr<const SweepChecker> sweeps;  ///< Of the grown object and the robot on the map.
+  };
+
+  std::shared_ptr<const Map> map;
+  RobotModel robot;
+  ObjectModels objects;
+  PushPlannerOptions options;
+  CollisionChecker checker;
+  RobotPathPlanner paths;
+  std::shared_ptr<const Footprint> robot_footprint;
+  std::map<std::string, Footprints> footprints;
+  std::unique_ptr<SweepLibrary> library;
+  std::unique_ptr<ApproachLibrary> approaches;
+  std::unique_ptr<CaseSetLibrary> case_sets;
+  std::unique_ptr<RoomLibrary> rooms;
+
+  CollisionChecker checkerWith(const std::vector<PlacedSolid>& obstacles) const {
+    CollisionChecker copy = checker;
+    copy.setObstacles(obstacles);
+    return copy;
+  }
+
+  PushChecker pushChecker(const std::string& model,
+                          const std::vector<PlacedSolid>& obstacles) const {
+    return PushChecker(
+        footprints.at(model).sweeps->withObstaclesOf(checkerWith(obstacles)),
+        {footprints.at(model).grown, objects.at(model).radius_m + options.object_margin_m},
+        {robot_footprint, robot.radius_m + options.robot_margin_m});
+  }
+
+  /// A search's problem; `request`, `cases`, `obstacles` and this must outlive it.
+  SearchProblem problem(const PlanRequest& request, const std::vector<const Case*>& cases,
+                        const std::vector<PlacedSolid>& obstacles) const;
+  PlanResult search(const PlanRequest& request, const std::vector<const Case*>& cases,
+                    const SearchClock& clock) const;
+  ClearingResult clearAway(const ClearingRequest& request, const PlanRequest& plan_request,
+                           const std::vector<const Case*>& own, const std::vector<Case>& cases,
+                           const SearchClock& clock) const;
+  void chain(const std::vector<Case>& cases, PushChecker* push_checker, Continuation* rest) const;
+};
+
+}  // namespace casepush
