@@ -23,14 +23,12 @@ struct ClearWay::Data {
       : robot(std::move(robot_model)),
         services(std::move(outside)),
         options(std::move(all)),
-        ways{std::move(plan)},
-        rest(options.push) {}
+        ways{std::move(plan)} {}
 
   RobotModel robot;
   ClearWayServices services;
   ClearWayOptions options;
   std::vector<PushPlan> ways;  ///< The plan, then those of the obstacles that are being cleared.
-  RestWatch rest;
   std::optional<ExecutePush> push;
   double looking_since_s = -1.0;
   int pushes = 0;
@@ -45,7 +43,7 @@ struct ClearWay::Data {
   void decide(const Observation& observation);
   void clear(const PlacedObject& obstacle, const Observation& observation);
   ClearingResult search(const PlacedObject& obstacle, const Observation& observation) const;
-  bool seesAtRest(const std::string& id, const Observation& observation);
+  bool isAtRest(const std::string& id, const Observation& observation);
   void startPush();
   void end(BehaviourStatus how, const std::string& why);
   void getStuck(const std::string& id, const std::string& why);
@@ -95,20 +93,20 @@ ClearingResult ClearWay::Data::search(const PlacedObject& obstacle,
   return services.clear(request);
 }
 
-bool ClearWay::Data::seesAtRest(const std::string& id, const Observation& observation) {
+// As it was last seen: who pushes it looks again before.
+bool ClearWay::Data::isAtRest(const std::string& id, const Observation& observation) {
   const ObjectState* object = usableObject(observation, id);
-  if (object != nullptr && rest.isAtRest(*object)) return true;
+  if (object != nullptr && !object->moving) return true;
   if (looking_since_s < 0.0) looking_since_s = observation.stamp_s;
   if (observation.stamp_s - looking_since_s > options.look_timeout_s) {
-    getStuck(id, "it is not seen at rest");
+    getStuck(id, "it does not come to rest");
   }
   return false;
 }
 
 void ClearWay::Data::clear(const PlacedObject& obstacle, const Observation& observation) {
   text = "looking at " + obstacle.id + ", which is in the way";
-  if (!seesAtRest(obstacle.id, observation)) return;
-  rest.reset();
+  if (!isAtRest(obstacle.id, observation)) return;
   looking_since_s = -1.0;
   if (pushes >= options.max_pushes) {
     getStuck(obstacle.id, "still there after " + std::to_string(pushes) + " pushes");

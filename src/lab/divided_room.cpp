@@ -15,7 +15,7 @@ namespace {
 constexpr double kGap_m = 0.2;    // Between furniture and what must stay free.
 constexpr double kPlay_m = 0.5;   // Of start and goal beside the door's axis.
 constexpr double kStray_m = 0.05; // Of what stands in the door.
-constexpr int kTagsPerObject = 20;
+constexpr int kTagsPerObject = 100;
 
 class DividedRoom {
  public:

@@ -65,6 +65,7 @@ PushRunResult runPushTask(const Catalog& catalog, const PushProblem& problem,
   services.plans = &plans;
   services.checker = &planner;
   services.cases = current_cases;
+  services.clearing = clearWayServices(planner, loop.simulator().robot().name, current_cases);
   services.on_report = [&](const PushReport& report) {
     result.reports.push_back(report);
     working.learnFrom(report);
@@ -76,6 +77,7 @@ PushRunResult runPushTask(const Catalog& catalog, const PushProblem& problem,
   goal.map_T_goal = problem.map_T_goal;
   goal.time_limit_s = options.time_limit_s;
   goal.adapt = options.adapt;
+  goal.clear_obstacles = options.clear_obstacles;
   goal.seed = options.lab.simulator.seed;
   PushTask task(goal, loop.simulator().robot(), services, options.task);
   loop.run(task, options.time_limit_s + kSettleS, [&] {

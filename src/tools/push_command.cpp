@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
@@ -21,6 +22,7 @@ struct PushArguments {
   TaskArguments task;
   PlannerArguments planner;
   bool no_adapt = false;
+  bool clear_obstacles = false;
   bool keep = false;
   CasterModel caster_model = CasterModel::kFeatherstone;
   std::optional<Load> load;
@@ -65,11 +67,13 @@ class PushProgress {
 
 nlohmann::ordered_json pushJson(const PushReport& report) {
   if (!isObservation(report)) {
-    return {{"case", report.case_id},
+    return {{"object", report.object_id},
+            {"case", report.case_id},
             {"outcome", toString(report.outcome)},
             {"explanation", report.explanation}};
   }
-  return {{"case", report.case_id},
+  return {{"object", report.object_id},
+          {"case", report.case_id},
           {"outcome", toString(report.outcome)},
           {"expected",
            {report.map_expected.mean.x(), report.map_expected.mean.y(),
@@ -89,10 +93,12 @@ PushContext contextOf(const PushArguments& arguments) {
 
 /// Adapts the stored cases as the task adapted its own. A case that was learnt with another load is
 /// copied first, and keeps what it knew.
-void keepWhatWasLearnt(const PushArguments& arguments, const std::vector<PushReport>& reports) {
-  const PushContext context = contextOf(arguments);
+void keepWhatWasLearnt(const PushArguments& arguments, const std::string& object_id,
+                       const std::vector<PushReport>& reports) {
   CaseBase base(arguments.task.case_base, CaseBase::Access::kReadWrite);
   for (const PushReport& report : reports) {
+    const PushContext context =
+        report.object_id == object_id ? contextOf(arguments) : PushContext{};
     if (isObservation(report)) {
       base.adapt(base.forContext(report.case_id, context), observedPush(report, context),
                  report.test.p_value, AdaptationOptions{}, CovarianceFloor{});
@@ -114,17 +120,20 @@ int push(const PushArguments& arguments) {
   }
   options.planner = plannerOptions(arguments.planner);
   options.adapt = !arguments.no_adapt;
+  options.clear_obstacles = arguments.clear_obstacles;
+  std::vector<Case> cases = task.cases;
+  cases.insert(cases.end(), task.other_cases.begin(), task.other_cases.end());
   options.time_limit_s = arguments.time_limit_s;
   options.task.plan_deadline_s = kPlanDeadlineS;
   PushProgress progress;
   const PushRunResult result =
-      runPushTask(task.catalog, task.problem, task.cases, task.map, options,
+      runPushTask(task.catalog, task.problem, std::move(cases), task.map, options,
                   [&](const PushTask& now) { progress.update(now); });
   if (result.status == PushTaskStatus::kInvalidGoal) {
     throw InputError("push", result.explanation);
   }
   if (arguments.keep) {
-    keepWhatWasLearnt(arguments, result.reports);
+    keepWhatWasLearnt(arguments, task.problem.object_id, result.reports);
   }
   nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
   for (const PushReport& report : result.reports) {
@@ -142,8 +151,10 @@ int push(const PushArguments& arguments) {
                {"position_error_m", result.position_error_m},
                {"yaw_error_rad", result.yaw_error_rad},
                {"pushes", result.progress.pushes},
+               {"clearing_pushes", result.progress.clearing_pushes},
                {"replans", result.progress.replans},
                {"replan_causes", replanCausesJson(result.progress.replan_causes)},
+               {"replan_reasons", result.progress.replan_reasons},
                {"rejected_predictions", result.progress.rejected_predictions},
                {"plan_length_m", result.progress.plan_length_m},
                {"sim_time_s", result.sim_time_s},
@@ -169,6 +180,10 @@ void addPushCommand(CLI::App& app, Run& run) {
   addTaskOptions(*command, arguments->task);
   addPlannerOptions(*command, arguments->planner);
   command->add_flag("--no-adapt", arguments->no_adapt, "Do not adapt the cases while pushing");
+  command->add_flag("--clear-obstacles", arguments->clear_obstacles,
+                    "Push other objects whose cases are in the case base out of the way where that "
+                    "is expected to "
+                    "be quicker than going around; without it they are fixed");
   command->add_flag("--keep", arguments->keep,
                     "Write the adapted cases to the case base: those learnt with another load are "
                     "copied for this one first; without it the file is not changed");

@@ -41,7 +41,8 @@ PushPlannerOptions plannerOptions(const PlannerArguments& arguments);
 struct Task {
   Catalog catalog;
   PushProblem problem;
-  std::vector<Case> cases;
+  std::vector<Case> cases;        ///< Of the object.
+  std::vector<Case> other_cases;  ///< Of other objects, which may be pushed out of the way.
   std::shared_ptr<const Map> map;
 };
 

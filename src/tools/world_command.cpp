@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "casepush/lab/divided_room.h"
 #include "casepush/lab/room_generator.h"
 #include "command.h"
 #include "task_arguments.h"
@@ -10,13 +11,20 @@ namespace {
 struct GenerateArguments {
   CommonOptions common;
   RoomOptions room;
+  bool divided = false;
   std::string output;
 };
 
 int generate(GenerateArguments arguments) {
   const Stopwatch watch;
   arguments.room.seed = static_cast<std::uint64_t>(arguments.common.seed);
-  const WorldModel room = generateRoom(Catalog::standard(), arguments.room);
+  DividedRoomOptions divided;
+  divided.seed = arguments.room.seed;
+  divided.size_m = arguments.room.size_m;
+  divided.object = arguments.room.object;
+  divided.robot = arguments.room.robot;
+  const WorldModel room = arguments.divided ? generateDividedRoom(Catalog::standard(), divided)
+                                            : generateRoom(Catalog::standard(), arguments.room);
   saveWorldModel(room, arguments.output);
   printResult({{"success", true},
                {"file", arguments.output},
@@ -47,6 +55,9 @@ void addWorldCommand(CLI::App& app, Run& run) {
       ->capture_default_str();
   command->add_option("--density", arguments->room.density, "Share of the floor under furniture")
       ->capture_default_str();
+  command->add_flag("--divided", arguments->divided,
+                    "A wall with two doors between start and goal: a chair and a cart stand in the "
+                    "near one, the far one is open");
   command->add_option("--output", arguments->output, "World file to write (.yaml)")->required();
   command->callback([arguments, &run] { run = [arguments] { return generate(*arguments); }; });
 }

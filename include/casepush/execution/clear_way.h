@@ -14,7 +14,7 @@ struct ClearWayOptions {
   ExecutePushOptions push;
   int max_pushes = 20;          ///< Of all obstacles together.
   int max_depth = 3;            ///< Of obstacles that are in the way of obstacles.
-  double look_timeout_s = 5.0;  ///< Wait for an obstacle to be seen at rest.
+  double look_timeout_s = 5.0;  ///< Wait for an obstacle to come to rest.
   void validate() const;        ///< @throws InputError listing every violation.
 };
 

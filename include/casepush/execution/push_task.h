@@ -32,9 +32,9 @@ struct PushTaskGoal {
   std::string object_id;
   Pose2 map_T_goal;
   GoalTolerance tolerance;
-  double time_limit_s = 900.0;  ///< Simulated or real seconds, by the observations' stamps.
-  bool adapt = true;            ///< Let the pushes of this task adapt the cases.
-  bool clear_obstacles = true;  ///< Push movable objects out of the way where that is faster.
+  double time_limit_s = 900.0;   ///< Simulated or real seconds, by the observations' stamps.
+  bool adapt = true;             ///< Let the pushes of this task adapt the cases.
+  bool clear_obstacles = false;  ///< Push other objects out of the way where that is quicker.
   std::uint64_t seed = 1;
 };
 
@@ -91,6 +91,7 @@ struct PushTaskProgress {
   int plans = 0;
   int replans = 0;  ///< Plans whose rest was given up for another plan.
   ReplanCounts replan_causes;
+  std::vector<std::string> replan_reasons;  ///< In words, one for each re-plan.
   /// Pushes made with each plan: all but the last plan were given up then. Plans of which no push
   /// was made count with 0.
   std::vector<int> pushes_per_plan;

@@ -59,6 +59,8 @@ struct PushRunOptions {
   PushTaskOptions task;
   CovarianceFloor floor;
   bool adapt = true;  ///< In memory only; the case base is not touched.
+  bool clear_obstacles =
+      false;  ///< Push objects with known cases out of the way if that is quicker.
   AdaptationOptions adaptation;
   double time_limit_s = 1200.0;
 };
@@ -78,6 +80,7 @@ struct PushRunResult {
 };
 
 /// Runs one push task in the simulator from beginning to end.
+/// @param cases  Of the object, and of others that may be pushed out of the way.
 /// @param map  What the planner knows; by default a survey of the world.
 PushRunResult runPushTask(const Catalog& catalog, const PushProblem& problem,
                           std::vector<Case> cases, std::shared_ptr<const Map> map,

@@ -99,11 +99,10 @@ TEST_F(ClearWayTest, GivesUpAfterTheAllowedPushes) {
   EXPECT_EQ(clear.stuckObstacle(), "chair_1");
 }
 
-TEST_F(ClearWayTest, GivesUpOnAnObstacleThatIsNotSeen) {
-  world.observe();
+TEST_F(ClearWayTest, GivesUpOnAnObstacleThatRollsOnForEver) {
   ClearWay clear = clearWay();
   world.object_velocity = {0.5, 0.0, 0.0};
-  world.deceleration_mps2 = 0.0;  // It rolls on for ever.
+  world.deceleration_mps2 = 0.0;
   EXPECT_EQ(run(clear, world), BehaviourStatus::kFailed);
   EXPECT_EQ(clear.stuckObstacle(), "chair_1");
   EXPECT_EQ(clear.pushes(), 0);
