@@ -95,15 +95,16 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
     const auto is_banned = [&banned](const Pose2& pose, int previous, int push) {
       return std::find(banned.begin(), banned.end(), Ban{pose, previous, push}) != banned.end();
     };
-    const ChainResult result =
-        is_lattice
-            ? searchLattice(chain, lattice, map, is_banned, stop)
-            : searchWithOmpl(problem.options.planner, chain, [&clock, &stop](double reserve_s) {
-                return stop() || clock.isOver(1.0, reserve_s);
-              });
+    bool is_late = false;
+    const auto is_over = [&](double reserve_s) {
+      is_late = stop() || clock.isOver(1.0, reserve_s);
+      return is_late;
+    };
+    const ChainResult result = is_lattice ? searchLattice(chain, lattice, map, is_banned, stop)
+                                          : searchWithOmpl(problem.options.planner, chain, is_over);
     made.nodes += result.nodes;
     if (!result.found) {
-      made.end = stop()             ? PlanSearch::End::kStopped
+      made.end = is_late || stop()  ? PlanSearch::End::kStopped
                  : result.exhausted ? PlanSearch::End::kExhausted
                                     : PlanSearch::End::kNodeLimit;
       return made;

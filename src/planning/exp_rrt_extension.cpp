@@ -10,6 +10,7 @@ namespace casepush {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kCheck = 64;  // A push takes so many times as long to check as to look at.
 
 }  // namespace
 
@@ -77,7 +78,7 @@ void ExpRrt::noteBestEdge(int node) {
 
 // The most promising pair of node and case that is safe.
 std::optional<ExpRrt::Edge> ExpRrt::chooseEdge() {
-  while (!edges_.empty() && !mustStop(set_->cases.size())) {
+  while (!edges_.empty() && !mustStop(set_->cases.size() + kCheck)) {
     const Edge edge = edges_.top();
     edges_.pop();
     if (!tree_.isOpen(edge.node)) {
@@ -139,7 +140,7 @@ int ExpRrt::chooseCase(int node, const Pose2& target) {
   }
   // A heap: mostly one of the first few is safe.
   std::make_heap(order_.begin(), order_.end(), std::greater<>());
-  while (!order_.empty() && !mustStop(1)) {
+  while (!order_.empty() && !mustStop(kCheck)) {
     const int push = order_.front().second;
     if (isSafe(node, push)) {
       return push;
@@ -156,7 +157,7 @@ int ExpRrt::chooseCaseChecked(int node, const Pose2& target) {
   int best = -1;
   std::pair<double, double> best_key{-1.0, 0.0};
   for (int push = 0; push < static_cast<int>(set_->cases.size()); ++push) {
-    if (mustStop(1)) {
+    if (mustStop(kCheck)) {
       return -1;
     }
     if (tree_.isTried(node, push) || !isSafe(node, push)) {

@@ -253,7 +253,8 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
       result.expected_s = outcome.expected_s;
       return result;
     }
-    if (outcome.end == PlanSearch::End::kStopped && clock.isOver()) {
+    // OMPL's planners stop a little earlier, to free their trees; a lesser level has no time left.
+    if (outcome.end == PlanSearch::End::kStopped && (clock.isOver() || isOmpl(options.planner))) {
       const bool cancelled = clock.isCancelled();
       result.status = cancelled ? PlanStatus::kCancelled : PlanStatus::kDeadline;
       result.explanation = cancelled ? "cancelled while planning"
@@ -263,8 +264,8 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
     }
     result.status = PlanStatus::kUnreachable;
     result.explanation = unreachableText(outcome, options.max_nodes);
-    if (outcome.end == PlanSearch::End::kCutOff) {
-      return result;  // With no spread of outcomes either.
+    if (outcome.end == PlanSearch::End::kCutOff || !options.relax) {
+      return result;  // Where it is cut off, with no spread of outcomes either.
     }
   }
   return result;

@@ -27,6 +27,7 @@ struct PushPlannerOptions {
   double goal_bias = 0.8;              ///< Probability that the sample is the goal (paper: 0.95).
   int max_nodes = 50625;               ///< Paper section 6.
   double zeta = 3.0;                   ///< Spread of the sigma points (paper: 3).
+  bool relax = true;                   ///< Try smaller zeta, or larger risks, if there is no plan.
   double object_margin_m = 0.0;        ///< Grows the object in every check.
   double robot_margin_m = 0.03;        ///< Grows the robot along its recorded trajectories.
   int solutions = 16;                  ///< Solutions to compare before the cheapest is returned.

@@ -5,6 +5,7 @@
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
+#include <ompl/util/RandomNumbers.h>
 
 #include "planning/furnished_room.h"
 #include "planning/synthetic_pushes.h"
@@ -159,6 +160,36 @@ TEST_P(ExpRrtTest, itsSeedFixesEverything) {
     differs = distance(a->tree().node(i).map_T_object, other->tree().node(i).map_T_object) > 1e-6;
   }
   EXPECT_TRUE(differs);
+}
+
+TEST_P(ExpRrtTest, doesNotDependOnOmplsRandomNumbers) {
+  const auto before = planner(4);
+  before->setProblemDefinition(problem(kStart, kGoal));
+  before->solve(afterCalls(100));
+  ompl::RNG others;
+  for (int i = 0; i < 1000; ++i) others.uniform01();
+  const auto after = planner(4);
+  after->setProblemDefinition(problem(kStart, kGoal));
+  after->solve(afterCalls(100));
+  expectSame(posesOf(*before), posesOf(*after));
+}
+
+TEST_P(ExpRrtTest, startsFromEveryStartStateThatIsFree) {
+  const auto definition = problem(kStart, kGoal);
+  for (const Pose2& start : {Pose2(7.5, 2.0, 0.0), Pose2(3.0, 10.0, 0.0)}) {
+    ob::ScopedState<Se2> state(space_);
+    state->setXY(start.x(), start.y());
+    state->setYaw(start.yaw());
+    definition->addStartState(state);
+  }
+  const auto rrt = planner(10);
+  rrt->setProblemDefinition(definition);
+  rrt->solve(ob::plannerAlwaysTerminatingCondition());
+  int roots = 0;
+  for (int id = 0; id < rrt->tree().size(); ++id) {
+    roots += rrt->tree().node(id).parent == PushNode::kRoot ? 1 : 0;
+  }
+  EXPECT_EQ(roots, 2);  // The one in the wall is left out.
 }
 
 TEST_P(ExpRrtTest, plannerDataHoldsTheTree) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "planning/planner_fixture.h"
 
 namespace casepush {
@@ -67,6 +69,24 @@ TEST_P(PlannerKindsTest, endsSoonWithTenThousandCases) {
   const PlanResult result = planner->plan(request, syntheticPushes(10000, 7));
   EXPECT_EQ(result.status, PlanStatus::kDeadline) << result.explanation;
   EXPECT_EQ(result.nodes, 0);
+}
+
+// However large a tree is when the time is over. A generous bound: other programs run as well.
+TEST_P(PlannerKindsTest, returnsSoonAfterItsDeadline) {
+  constexpr double kLate_s = 0.3;
+  const auto planner = plannerFor(emptyRoom(), options());
+  PlanRequest request = requestFor(kStart, kGoal);
+  request.tolerance = {1e-6, 1e-6};
+  const std::vector<std::vector<Case>> sets = {cases_, syntheticPushes(10000, 7)};
+  for (const double deadline_s : {0.001, 0.2}) {
+    request.deadline_s = deadline_s;
+    for (const std::vector<Case>& cases : sets) {
+      const auto begin = std::chrono::steady_clock::now();
+      planner->plan(request, cases);
+      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+      EXPECT_LT(spent.count(), deadline_s + kLate_s) << cases.size() << " cases";
+    }
+  }
 }
 
 TEST_P(PlannerKindsTest, noticesAGoalBehindWalls) {
