@@ -223,6 +223,7 @@ void addBenchCommand(CLI::App& app, Run& run) {
   addCollisionBench(*bench, run);
   addPlanBench(*bench, run);
   addMapBench(*bench, run);
+  addGrowthBench(*bench, run);
   CLI::App* command = bench->add_subcommand(
       "sim", "Compare the caster models: outcomes of random pushes as distributions, and speed");
   addCommonOptions(*command, arguments->common);

@@ -32,8 +32,9 @@ void addCasesCommand(CLI::App& app, Run& run);
 void addWorldCommand(CLI::App& app, Run& run);
 void addMapCommand(CLI::App& app, Run& run);
 void addBenchCommand(CLI::App& app, Run& run);
-void addPlanBench(CLI::App& bench, Run& run);  ///< Of addBenchCommand().
-void addMapBench(CLI::App& bench, Run& run);   ///< Of addBenchCommand().
+void addPlanBench(CLI::App& bench, Run& run);    ///< Of addBenchCommand().
+void addMapBench(CLI::App& bench, Run& run);     ///< Of addBenchCommand().
+void addGrowthBench(CLI::App& bench, Run& run);  ///< Of addBenchCommand().
 void addExperimentCommand(CLI::App& app, Run& run);
 void addTaskExperiments(CLI::App& experiment, Run& run);        ///< Of addExperimentCommand().
 void addUncertaintyExperiment(CLI::App& experiment, Run& run);  ///< Of addExperimentCommand().
