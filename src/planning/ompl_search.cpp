@@ -112,8 +112,8 @@ ob::PlannerPtr makePlanner(PlannerKind kind, const oc::SpaceInformationPtr& spac
 
 ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
                            const std::function<bool(double)>& is_over) {
-  // Planners free their trees one node after the other. PDST needs up to a quarter of the time that
-  // it took to grow a million of them; a share holds on a busy processor as well.
+  // Planners free their trees one node after the other. PDST needs nearly three tenths of the time
+  // that it took to grow a million of them; a share holds on a busy processor as well.
   constexpr double kFreeingShare = 0.3;
   constexpr double kFreeing_s = 3e-6;  // Of one node on a busy processor.
   const PushPropagator* pushes = nullptr;
