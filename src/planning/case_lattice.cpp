@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -48,11 +49,6 @@ class Lattice {
       const double turn_rad = std::abs(push_case.start_outcome.mean.yaw());
       const double least_s = problem.handling_s + push_case.duration_s;
       best_turn_rate_rps_ = std::max(best_turn_rate_rps_, turn_rad / least_s);
-    }
-    drift_s_.assign(problem.cases.size(), 0.0);
-    for (std::size_t push = 0; problem.risk != nullptr && push < drift_s_.size(); ++push) {
-      drift_s_[push] = problem.risk->options().recovery_s *
-                       problem.risk->expectedReplans(static_cast<int>(push), problem.tolerance);
     }
     add({problem.map_T_start, -1, -1, 0.0, 0.0});
   }
@@ -172,31 +168,14 @@ class Lattice {
     }
   }
 
-  Eigen::Matrix3d startCovariance(int id) {
-    recent_.clear();
-    const auto wanted = static_cast<std::size_t>(problem_.risk->options().horizon - 1);
-    for (; nodes_[id].parent >= 0 && recent_.size() < wanted; id = nodes_[id].parent) {
-      recent_.push_back(nodes_[id].push);
-    }
-    return problem_.risk->startCovariance(recent_);
-  }
-
   // Adds to `node` what its last push risks; false if that is too much.
   bool addRisk(Node* node) {
-    const Pose2& from = nodes_[node->parent].map_T_object;
-    const Eigen::Matrix3d start = startCovariance(node->parent);
-    const PushRisk& risk = *problem_.risk;
-    const double most = riskOf(problem_.max_collision_probability) - node->risk;
-    const double collision =
-        risk.collisionProbability(node->push, from, start, probabilityOf(most));
-    if (riskOf(collision) > most) return false;
-    node->risk += riskOf(collision);
-    double failure = collision;
-    if (isGoal(node->map_T_object)) {
-      failure +=
-          risk.missProbability(node->push, from, start, problem_.map_T_goal, problem_.tolerance);
-    }
-    node->cost_s += risk.options().recovery_s * failure;
+    const auto node_at = [this](int id) -> const Node& { return nodes_[id]; };
+    const std::optional<PushChance> chance =
+        problem_.chance->judge(node_at, node->parent, node->push, node->map_T_object);
+    if (!chance) return false;
+    node->risk += chance->risk;
+    node->cost_s += chance->recovery_s;
     return true;
   }
 
@@ -211,7 +190,7 @@ class Lattice {
                          nodes_[cell->second.node].cost_s <= node.cost_s;
     if ((is_late && !isGoal(node.map_T_object)) || is_banned_(from, parent.push, edge.push)) return;
     const bool is_safe =
-        problem_.risk != nullptr ? addRisk(&node) : problem_.checker.isSafe(push_case, from);
+        problem_.chance != nullptr ? addRisk(&node) : problem_.checker.isSafe(push_case, from);
     if (is_safe) add(node);
   }
 
@@ -225,7 +204,8 @@ class Lattice {
       const double step_s = node.push < 0 ? problem_.time.first(object_T_robot, push)
                                           : problem_.time.after(node.push, push);
       const Pose2 to = node.map_T_object * problem_.cases[push].start_outcome.mean;
-      const double cost_s = node.cost_s + step_s + drift_s_[push];
+      const double drift_s = problem_.chance != nullptr ? problem_.chance->driftS(push) : 0.0;
+      const double cost_s = node.cost_s + step_s + drift_s;
       const double remaining_s = remaining(to);
       if (cost_s + remaining_s < bestCost()) wait({0.0, cost_s, remaining_s, -1, id, push});
     }
@@ -236,7 +216,6 @@ class Lattice {
   const OriginDistance& map_;
   const Ban& is_banned_;
   double best_turn_rate_rps_ = 0.0;
-  std::vector<double> drift_s_;  ///< Of each case: expected re-plans, see PushRisk.
   int round_ = 0;
   double weight_ = 1.0;
   int goal_ = -1;  ///< The cheapest node in the goal region.
@@ -244,7 +223,6 @@ class Lattice {
   std::unordered_map<std::uint64_t, Cell> cells_;
   std::vector<Entry> open_;       ///< A heap, the least priority first.
   std::vector<Entry> postponed_;  ///< For the next round.
-  std::vector<int> recent_;       ///< Scratch.
 };
 
 }  // namespace

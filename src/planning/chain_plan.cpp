@@ -28,22 +28,6 @@ struct Ban {
 
 }  // namespace
 
-PushPlan planOf(const PlanRequest& request, const std::vector<PreparedCase>& cases,
-                const std::vector<int>& pushes, const SafetyLevel& safety) {
-  PushPlan plan;
-  plan.object = request.object;
-  plan.map_T_goal = request.map_T_goal;
-  plan.tolerance = request.tolerance;
-  plan.zeta = safety.zeta;
-  plan.max_collision_probability = safety.max_collision_probability;
-  Pose2 pose = plan.object.map_T_object;
-  for (const int push : pushes) {
-    plan.pushes.push_back({cases[push].id, pose, transform(pose, cases[push].start_outcome)});
-    pose = pose * cases[push].start_outcome.mean;
-  }
-  return plan;
-}
-
 ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
                     const SearchClock& clock) {
   const PlanRequest& request = problem.request;
@@ -53,9 +37,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
   if (set == nullptr) return made;
   const std::vector<PreparedCase>& cases = set->cases;
   const PushTime& time = set->time;
-  std::vector<Case> recorded;
-  for (const Case* const push_case : problem.cases) recorded.push_back(*push_case);
-  const PushRisk risk(recorded, cases, checker, problem.options.risk);
+  SearchChance chance(problem, cases, checker, safety);
   const bool is_lattice = problem.options.planner == PlannerKind::kLattice;
   const OriginDistance map(checker->collisions().columns(), problem.object.solid,
                            request.map_T_goal.position(), request.tolerance.position_m,
@@ -68,7 +50,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
   if (problem.options.improvement_extensions == 0) lattice.weights.resize(1);
   if (request.tolerance.isMet(request.map_T_goal, request.object.map_T_object)) {
     made.end = PlanSearch::End::kFound;
-    made.plan = planOf(request, cases, {}, safety);
+    made.plan = planOf(request, cases, {}, safety, chance.risk());
     made.nodes = 1;
     return made;
   }
@@ -90,8 +72,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
                              problem.options.max_nodes,
                              request.seed,
                              problem.options.time.handling_s,
-                             safety.max_collision_probability ? &risk : nullptr,
-                             safety.max_collision_probability.value_or(1.0)};
+                             chance.constraint()};
     const auto is_banned = [&banned](const Pose2& pose, int previous, int push) {
       return std::find(banned.begin(), banned.end(), Ban{pose, previous, push}) != banned.end();
     };
@@ -123,8 +104,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
     }
     if (!reachable) continue;
     made.end = PlanSearch::End::kFound;
-    made.plan = planOf(request, cases, result.pushes, safety);
-    if (safety.max_collision_probability) assessPlan(risk, result.pushes, &made.plan);
+    made.plan = planOf(request, cases, result.pushes, safety, chance.risk());
     made.expected_s = result.cost_s;
     made.bound = result.bound;
     return made;

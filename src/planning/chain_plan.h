@@ -15,10 +15,6 @@ struct ChainPlan {
   std::string approach_problem;
 };
 
-/// The plan that a chain of cases makes from the request's object on.
-PushPlan planOf(const PlanRequest& request, const std::vector<PreparedCase>& cases,
-                const std::vector<int>& pushes, const SafetyLevel& safety);
-
 /// Searches with the lattice or an OMPL planner until the robot can get to every push of a chain.
 ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
                     const SearchClock& clock);

@@ -7,7 +7,7 @@
 #include "casepush/planning/planner_kind.h"
 #include "casepush/planning/push_checker.h"
 #include "casepush/planning/push_time.h"
-#include "push_risk.h"
+#include "chance_constraint.h"
 
 namespace casepush {
 
@@ -25,9 +25,8 @@ struct ChainProblem {
   double gyration_radius_m;
   int max_nodes;
   std::uint64_t seed;
-  double handling_s;                       ///< No push takes less than this and its duration.
-  const PushRisk* risk = nullptr;          ///< For chance constraints.
-  double max_collision_probability = 1.0;  ///< Of the chain, if there is `risk`.
+  double handling_s;                   ///< No push takes less than this and its duration.
+  ChanceConstraint* chance = nullptr;  ///< In the place of the cases' sigma points.
 };
 
 struct ChainResult {
@@ -56,7 +55,7 @@ struct LatticeOptions {
 ///
 /// The search with one weight goes on where the one before it ended, until `stop` says true or
 /// `max_nodes` are reached; the best chain so far is returned with the bound that was proven for
-/// it, over the graph of the cells' poses. The cost is time, and with `risk` the expected time of
+/// it, over the graph of the cells' poses. The cost is time, and with `chance` the expected time of
 /// recoveries; nothing is random.
 /// @param map  Of the goal.
 /// @param is_banned  Edges (pose, previous case or -1, case) that must not be used.

@@ -69,6 +69,8 @@ ExpRrt::ExpRrt(const ob::SpaceInformationPtr& space, PushChecker* checker,
             static_cast<int>(set_->cases.size())),
       random_(Random::stream(options.seed, "exp_rrt")),
       best_cost_s_(kInfinity) {
+  CASEPUSH_CHECK(options.chance == nullptr || options.similarity == Similarity::kMetric,
+                 "chance constraints with the paper's similarity");
   specs_.approximateSolutions = false;
   specs_.directed = true;
 }

@@ -16,6 +16,7 @@
 #include "casepush/model/push_plan.h"
 #include "casepush/planning/push_checker.h"
 #include "casepush/planning/similarity.h"
+#include "chance_constraint.h"
 #include "goal_guide.h"
 #include "push_tree.h"
 
@@ -51,6 +52,8 @@ struct ExpRrtOptions {
   double improving_greed = 2.0;      ///< In the place of greed.
   double improving_radius_m = 2.0;   ///< The cheapest node within up to this is extended.
   std::uint64_t seed = 1;
+  /// In the place of the cases' sigma points, only with Similarity::kMetric; outlives the planner.
+  ChanceConstraint* chance = nullptr;
 };
 
 /// Can the robot get to push `next` with the object at rest at `map_T_object`?
@@ -70,7 +73,8 @@ using CanApproach = std::function<bool(const Pose2& map_T_object, const Prepared
 /// region are tried from every new node. Once a solution is known, what cannot become cheaper is
 /// left out, and random samples extend the cheapest node within a random radius. With
 /// Similarity::kPaper the node and the case most similar by eq. 3 are taken, all cases of a node
-/// are checked.
+/// are checked. With chance constraints a push is safe if its mean motion is and the chain up to it
+/// does not risk too much, and expected recoveries count as time.
 ///
 /// Each solve() continues the tree until the next new solution, the termination condition, or until
 /// nothing is left to try. Its own seed makes it reproducible; OMPL's random numbers are not used.
@@ -141,11 +145,13 @@ class ExpRrt : public ompl::base::Planner {
   int chooseCaseChecked(int node, const Pose2& target);
   bool isReachable(int node);
   bool isSafe(int node, int push);
+  bool isSafeByChance(int node, int push);
   Growth extend(int node, int push, int* added = nullptr);
   Growth addSolution(int node);
   Growth connect(int node);
   Growth follow(int node, const CaseChain& chain);
   double pushCost(int node, int push) const;
+  double chainCost(int node, const CaseChain& chain) const;
   double remaining(const Pose2& pose) const;
   double expected(const Eigen::Vector2d& position_m, double yaw_rad) const;
   bool isHopeless(double cost_s, const Pose2& pose) const;
@@ -168,6 +174,7 @@ class ExpRrt : public ompl::base::Planner {
   double best_cost_s_;
   int extension_count_ = 0;
   std::size_t work_ = 0;             // cases looked at since somebody was asked whether to stop
+  PushChance last_chance_;           // of the push that isSafe() last found safe
   std::vector<bool> is_approached_;  // nodes whose push the robot can get to
   // The best untried edge of each node that is open, and of some that closed meanwhile.
   std::priority_queue<Edge, std::vector<Edge>, std::greater<>> edges_;

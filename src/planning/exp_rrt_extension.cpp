@@ -117,8 +117,31 @@ bool ExpRrt::isReachable(int node) {
   return true;
 }
 
+// What comes too late anyway is not worth an estimate of its risk.
+bool ExpRrt::isSafeByChance(int node, int push) {
+  const PushNode& from = tree_.node(node);
+  const Pose2 end = from.map_T_object * set_->cases[push].start_outcome.mean;
+  const double cost_s = from.cost_s + pushCost(node, push);
+  const bool is_goal = goal_->tolerance().isMet(goal_->pose(), end);
+  if (isHopeless(cost_s, end) || (!is_goal && tree_.isCovered(end, cost_s))) {
+    tree_.markPostponed(node, push);
+    return false;
+  }
+  const auto node_at = [this](int id) -> const PushNode& { return tree_.node(id); };
+  const std::optional<PushChance> chance = options_.chance->judge(node_at, node, push, end);
+  if (!chance) {
+    tree_.markTried(node, push);
+    return false;
+  }
+  last_chance_ = *chance;
+  return true;
+}
+
 // Alg. 1, COLLIDING. A push that is not safe counts as tried.
 bool ExpRrt::isSafe(int node, int push) {
+  if (options_.chance != nullptr) {
+    return isSafeByChance(node, push);
+  }
   const bool is_safe = checker_->isSafe(set_->cases[push], tree_.node(node).map_T_object);
   if (!is_safe) {
     tree_.markTried(node, push);
@@ -176,16 +199,31 @@ int ExpRrt::chooseCaseChecked(int node, const Pose2& target) {
 
 double ExpRrt::pushCost(int node, int push) const {
   const int previous = tree_.node(node).push;
-  return previous < 0 ? set_->time.first(object_T_robot_, push) : set_->time.after(previous, push);
+  const double time_s =
+      previous < 0 ? set_->time.first(object_T_robot_, push) : set_->time.after(previous, push);
+  return options_.chance != nullptr ? time_s + options_.chance->driftS(push) : time_s;
 }
 
-// @pre The push is safe, and the robot can get to those before it.
+double ExpRrt::chainCost(int node, const CaseChain& chain) const {
+  double cost_s = pushCost(node, chain.pushes.front());
+  for (int i = 1; options_.chance != nullptr && i < chain.count; ++i) {
+    cost_s += options_.chance->driftS(chain.pushes[i]);
+  }
+  return cost_s;
+}
+
+// @pre The push is the last one that isSafe() was asked for and found safe, and the robot can get
+// to those before it.
 ExpRrt::Growth ExpRrt::extend(int node, int push, int* added) {
   PushNode child;
   child.map_T_object = tree_.node(node).map_T_object * set_->cases[push].start_outcome.mean;
   child.parent = node;
   child.push = push;
   child.cost_s = tree_.node(node).cost_s + pushCost(node, push);
+  if (options_.chance != nullptr) {
+    child.cost_s += last_chance_.recovery_s;
+    child.risk = tree_.node(node).risk + last_chance_.risk;
+  }
   const bool is_goal = goal_->tolerance().isMet(goal_->pose(), child.map_T_object);
   const int id = isHopeless(child.cost_s, child.map_T_object) ? -1 : tree_.add(child, !is_goal);
   if (id < 0) {
@@ -242,7 +280,8 @@ ExpRrt::Growth ExpRrt::connect(int node) {
   order_.clear();
   for (std::size_t i = 0; i < endings_.size(); ++i) {
     const int first = endings_[i]->pushes.front();
-    const double cost_s = tree_.node(node).cost_s + pushCost(node, first) + endings_[i]->later_s;
+    const double cost_s =
+        tree_.node(node).cost_s + chainCost(node, *endings_[i]) + endings_[i]->later_s;
     if (cost_s < best_cost_s_ && !tree_.isTried(node, first)) {
       order_.emplace_back(cost_s, static_cast<int>(i));
     }

@@ -49,8 +49,8 @@ ob::ProblemDefinitionPtr makeDefinition(const ob::SpaceInformationPtr& space,
 }
 
 ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& space,
-               PushChecker* checker, std::shared_ptr<const CaseSet> cases, const GoalGuide* guide,
-               CanApproach can_approach) {
+               PushChecker* checker, std::shared_ptr<const CaseSet> cases, ChanceConstraint* chance,
+               const GoalGuide* guide, CanApproach can_approach) {
   const PushPlannerOptions& options = problem.options;
   ExpRrtOptions rrt;
   rrt.similarity = options.similarity;
@@ -61,6 +61,7 @@ ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& spac
   constexpr double kSamePose_m = 1e-3;
   rrt.spacing_m = options.similarity == Similarity::kPaper ? kSamePose_m : options.spacing_m;
   rrt.seed = problem.request.seed;
+  rrt.chance = chance;
   const Pose2 object_T_robot =
       problem.request.object.map_T_object.inverse() * problem.request.map_T_robot;
   return ExpRrt(space, checker, std::move(cases), guide, object_T_robot, std::move(can_approach),
@@ -84,6 +85,33 @@ std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const Pu
     return std::make_shared<const CaseSet>(std::move(cases), problem.options.time);
   };
   return problem.case_sets->get(problem.cases, zeta, make);
+}
+
+SearchChance::SearchChance(const SearchProblem& problem, const std::vector<PreparedCase>& cases,
+                           PushChecker* checker, const SafetyLevel& safety) {
+  if (!safety.max_collision_probability) return;
+  std::vector<Case> recorded;
+  for (const Case* const push_case : problem.cases) recorded.push_back(*push_case);
+  risk_.emplace(recorded, cases, checker, problem.options.risk);
+  constraint_.emplace(*risk_, *safety.max_collision_probability, problem.request.map_T_goal,
+                      problem.request.tolerance);
+}
+
+PushPlan planOf(const PlanRequest& request, const std::vector<PreparedCase>& cases,
+                const std::vector<int>& pushes, const SafetyLevel& safety, const PushRisk* risk) {
+  PushPlan plan;
+  plan.object = request.object;
+  plan.map_T_goal = request.map_T_goal;
+  plan.tolerance = request.tolerance;
+  plan.zeta = safety.zeta;
+  plan.max_collision_probability = safety.max_collision_probability;
+  Pose2 pose = plan.object.map_T_object;
+  for (const int push : pushes) {
+    plan.pushes.push_back({cases[push].id, pose, transform(pose, cases[push].start_outcome)});
+    pose = pose * cases[push].start_outcome.mean;
+  }
+  if (risk != nullptr) assessPlan(*risk, pushes, &plan);
+  return plan;
 }
 
 SearchClock::SearchClock(double deadline_s, std::function<bool()> stop,
@@ -113,14 +141,15 @@ void SearchClock::report(int nodes, double best_cost_s) const {
   report_({now_s, nodes_ + nodes, best_cost_s});
 }
 
-PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta,
-                       std::shared_ptr<const CaseSet> cases, const GoalGuide& guide,
-                       Approaches approaches)
+PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
+                       const SafetyLevel& safety, std::shared_ptr<const CaseSet> cases,
+                       const GoalGuide& guide, Approaches approaches)
     : problem_(problem),
-      zeta_(zeta),
+      safety_(safety),
+      chance_(problem, cases->cases, checker, safety),
       space_(makeSpace(checker)),
       definition_(makeDefinition(space_, problem.request)),
-      rrt_(makeRrt(problem, space_, checker, std::move(cases), &guide,
+      rrt_(makeRrt(problem, space_, checker, std::move(cases), chance_.constraint(), &guide,
                    approaches == Approaches::kSimple ? simpleApproach() : CanApproach())),
       checker_(checker),
       approaches_how_(approaches),
@@ -140,7 +169,7 @@ CanApproach PlanSearch::simpleApproach() {
 PlanSearch::End PlanSearch::run(const SearchClock& clock) {
   while (true) {
     if (rrt_.solutions().empty() && !findFirst(clock)) {
-      if (clock.isOver()) {
+      if (isLate(clock)) {
         return End::kStopped;
       }
       if (!mayBeMissing() && isCutOff(clock)) {
@@ -169,12 +198,14 @@ bool PlanSearch::findFirst(const SearchClock& clock) {
   // and at what the quick check of approaches turned down.
   constexpr int kQuick = 3000;
   const int quick = rrt_.extensionCount() + kQuick;
-  rrt_.solve(ob::PlannerTerminationCondition(
-      [this, quick, &clock] { return rrt_.extensionCount() >= quick || isOver(clock, 1.0); }));
-  if (!rrt_.solutions().empty() || clock.isOver() || mayBeMissing() || isCutOff(clock)) {
+  rrt_.solve(ob::PlannerTerminationCondition([this, quick, &clock] {
+    return rrt_.extensionCount() >= quick || isOver(clock, safety_.deadline_share);
+  }));
+  if (!rrt_.solutions().empty() || isLate(clock) || mayBeMissing() || isCutOff(clock)) {
     return !rrt_.solutions().empty();
   }
-  rrt_.solve(ob::PlannerTerminationCondition([this, &clock] { return isOver(clock, 1.0); }));
+  rrt_.solve(ob::PlannerTerminationCondition(
+      [this, &clock] { return isOver(clock, safety_.deadline_share); }));
   return !rrt_.solutions().empty();
 }
 
@@ -274,19 +305,13 @@ bool ApproachVerifier::canApproachSimply(const Pose2& map_T_object, const Prepar
 }
 
 PushPlan PlanSearch::plan() const {
-  PushPlan plan;
-  plan.object = problem_.request.object;
-  plan.map_T_goal = problem_.request.map_T_goal;
-  plan.tolerance = problem_.request.tolerance;
-  plan.zeta = zeta_;
-  const std::vector<int> nodes = rrt_.chain(solution_);
-  for (std::size_t i = 1; i < nodes.size(); ++i) {
-    const PreparedCase& push_case = rrt_.cases()[rrt_.tree().node(nodes[i]).push];
-    const Pose2& map_T_start = rrt_.tree().node(nodes[i - 1]).map_T_object;
-    plan.pushes.push_back(
-        {push_case.id, map_T_start, transform(map_T_start, push_case.start_outcome)});
+  std::vector<int> pushes;
+  for (const int node : rrt_.chain(solution_)) {
+    if (rrt_.tree().node(node).parent != PushNode::kRoot) {
+      pushes.push_back(rrt_.tree().node(node).push);
+    }
   }
-  return plan;
+  return planOf(problem_.request, rrt_.cases(), pushes, safety_, chance_.risk());
 }
 
 }  // namespace casepush

@@ -12,6 +12,7 @@
 #include "approach_check.h"
 #include "case_set.h"
 #include "casepush/planning/push_planner.h"
+#include "chance_constraint.h"
 #include "exp_rrt.h"
 #include "goal_guide.h"
 
@@ -87,18 +88,41 @@ class ApproachVerifier {
 std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const PushChecker& checker,
                                           double zeta, const SearchClock& clock);
 
+/// The chance constraint of one search and what it needs, if its safety level asks for one.
+class SearchChance {
+ public:
+  /// @param cases  Of the problem; they and the checker must outlive this.
+  SearchChance(const SearchProblem& problem, const std::vector<PreparedCase>& cases,
+               PushChecker* checker, const SafetyLevel& safety);
+  SearchChance(const SearchChance&) = delete;
+  SearchChance& operator=(const SearchChance&) = delete;
+
+  /// nullptr: sigma points.
+  ChanceConstraint* constraint() { return constraint_ ? &*constraint_ : nullptr; }
+  const PushRisk* risk() const { return risk_ ? &*risk_ : nullptr; }
+
+ private:
+  std::optional<PushRisk> risk_;
+  std::optional<ChanceConstraint> constraint_;
+};
+
+/// The plan of a chain of cases (indices), with its collision probabilities if there is `risk`.
+PushPlan planOf(const PlanRequest& request, const std::vector<PreparedCase>& cases,
+                const std::vector<int>& pushes, const SafetyLevel& safety,
+                const PushRisk* risk = nullptr);
+
 /// How it is decided whether the robot can get to a push.
 enum class Approaches {
   kSimple,    ///< While the tree grows, by a quick check that may miss a way.
   kThorough,  ///< For each push of a solution, by RobotPathPlanner.
 };
 
-/// One search with one spread of sigma points: grows an Exp-RRT and compares its solutions by
+/// One search with one safety level: grows an Exp-RRT and compares its solutions by
 /// expected time. The robot can get to every push of the result.
 class PlanSearch {
  public:
   /// All must outlive it.
-  PlanSearch(const SearchProblem& problem, PushChecker* checker, double zeta,
+  PlanSearch(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
              std::shared_ptr<const CaseSet> cases, const GoalGuide& guide, Approaches approaches);
 
   enum class End { kFound, kExhausted, kNodeLimit, kStopped, kCutOff };
@@ -119,6 +143,7 @@ class PlanSearch {
   bool mayBeMissing() const;
   bool isCutOff(const SearchClock& clock) const;
   bool isOver(const SearchClock& clock, double share) const;  ///< Reports, too.
+  bool isLate(const SearchClock& clock) const { return clock.isOver(safety_.deadline_share); }
   void improve(const SearchClock& clock);
   /// The first node of the chain that the robot cannot push to; -1 if there is none; nothing if
   /// the clock ran out.
@@ -126,7 +151,8 @@ class PlanSearch {
   bool canApproach(int node);
 
   const SearchProblem& problem_;
-  double zeta_;
+  SafetyLevel safety_;
+  SearchChance chance_;
   ompl::base::SpaceInformationPtr space_;
   ompl::base::ProblemDefinitionPtr definition_;
   ExpRrt rrt_;

@@ -98,7 +98,7 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
     return outcome;
   }
   for (const Approaches approaches : {Approaches::kSimple, Approaches::kThorough}) {
-    PlanSearch search(problem, checker, safety.zeta, cases, guide, approaches);
+    PlanSearch search(problem, checker, safety, cases, guide, approaches);
     outcome.end = search.run(clock);
     addTree(search.rrt(), result);
     outcome.nodes = search.rrt().tree().size();

@@ -36,9 +36,11 @@ void PushPlannerOptions::validate() const {
   violations.require("time.clearance_m", time.clearance_m, 0.0, kInfinity);
   violations.require("time.handling_s", time.handling_s, 0.0, kInfinity);
   violations.throwIfAny("push planner options");
-  if (risk.model == RiskModel::kChance && planner != PlannerKind::kLattice) {
+  const bool knows_chance = planner == PlannerKind::kLattice ||
+                            (planner == PlannerKind::kExpRrt && similarity == Similarity::kMetric);
+  if (risk.model == RiskModel::kChance && !knows_chance) {
     throw InputError("risk", std::string("planner ") + toString(planner) +
-                                 " knows no chance constraints; use lattice");
+                                 " knows no chance constraints; use lattice or exp_rrt");
   }
 }
 

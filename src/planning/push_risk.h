@@ -49,6 +49,7 @@ class PushRisk {
   double expectedReplans(int push, const GoalTolerance& tolerance) const;
 
   const RiskOptions& options() const { return options_; }
+  int caseCount() const { return static_cast<int>(stops_.size()); }
 
   static constexpr int kDirections = 32;
 

@@ -67,6 +67,11 @@ int PushTree::add(const PushNode& node, bool grows) {
   return id;
 }
 
+bool PushTree::isCovered(const Pose2& map_T_object, double cost_s) const {
+  const auto entry = cheapest_.find(cell(map_T_object));
+  return entry != cheapest_.end() && nodes_[entry->second].cost_s <= cost_s;
+}
+
 bool PushTree::isTried(int id, int push) const {
   return tried_[static_cast<std::size_t>(id) * case_count_ + push];
 }

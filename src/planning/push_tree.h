@@ -19,6 +19,7 @@ struct PushNode {
   int parent = kRoot;   ///< Node that it was pushed from; kRoot for the start.
   int push = -1;        ///< Index of the case that brought it here.
   double cost_s = 0.0;  ///< Expected time since the start.
+  double risk = 0.0;    ///< With chance constraints: of the pushes so far, see riskOf().
 };
 
 /// The tree of Exp-RRT: nodes, which (node, case) pairs were tried, and which nodes may grow.
@@ -41,6 +42,9 @@ class PushTree {
   /// Adds a node unless another one that costs no more stands at the same pose; -1 if so.
   /// @param grows  False for a node that is never to be extended, e.g. in the goal: always added.
   int add(const PushNode& node, bool grows);
+
+  /// Would a node that grows be turned down by add()?
+  bool isCovered(const Pose2& map_T_object, double cost_s) const;
 
   bool isTried(int id, int push) const;
   /// Notes that a case has been tried from a node; the last one closes the node.

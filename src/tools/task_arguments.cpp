@@ -62,7 +62,7 @@ void addPlannerOptions(CLI::App& command, PlannerArguments& arguments) {
   command
       .add_option("--risk", arguments.risk,
                   "What plans are safe for: sigma_points (of each push for itself) or chance (a "
-                  "collision probability for the whole plan)")
+                  "collision probability for the whole plan; with exp_rrt or lattice)")
       ->check(CLI::IsMember({"sigma_points", "chance"}))
       ->capture_default_str();
   command
