@@ -77,6 +77,9 @@ void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
   if (missing.empty() && casesOf(model).empty()) {
     missing = "there are no cases of " + model + " (topic cases); learn it first (learn_object)";
   }
+  if (missing.empty() && !plans_.isAlive()) {
+    missing = "the planner does not answer yet (action plan_push)";
+  }
   if (!missing.empty()) {
     return reject<PushObjectResult>(goal, PushObjectResult::NOT_READY, missing);
   }

@@ -1,5 +1,6 @@
 """Stands between the simulator and the other nodes, and spoils what it passes on."""
 
+import copy
 import random
 import threading
 
@@ -54,6 +55,7 @@ class FaultRelay:
             self._publishers["/tf"].publish(message)
 
     def _on_odometry(self, message):
+        message = copy.deepcopy(message)  # Whoever else in this process listens gets the very same.
         message.header.stamp = self._shifted(message.header.stamp)
         self._publishers["/odom"].publish(message)
 
