@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
@@ -121,13 +120,15 @@ int push(const PushArguments& arguments) {
   options.planner = plannerOptions(arguments.planner);
   options.adapt = !arguments.no_adapt;
   options.clear_obstacles = arguments.clear_obstacles;
-  std::vector<Case> cases = task.cases;
-  cases.insert(cases.end(), task.other_cases.begin(), task.other_cases.end());
+  if (arguments.clear_obstacles) {
+    const std::vector<Case> others = otherCases(arguments.task, task);
+    task.cases.insert(task.cases.end(), others.begin(), others.end());
+  }
   options.time_limit_s = arguments.time_limit_s;
   options.task.plan_deadline_s = kPlanDeadlineS;
   PushProgress progress;
   const PushRunResult result =
-      runPushTask(task.catalog, task.problem, std::move(cases), task.map, options,
+      runPushTask(task.catalog, task.problem, task.cases, task.map, options,
                   [&](const PushTask& now) { progress.update(now); });
   if (result.status == PushTaskStatus::kInvalidGoal) {
     throw InputError("push", result.explanation);

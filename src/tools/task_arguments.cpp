@@ -92,17 +92,14 @@ PushPlannerOptions plannerOptions(const PlannerArguments& arguments) {
 }
 
 Task prepareTask(const TaskArguments& arguments, const PushContext& context) {
-  Task task{Catalog::standard(), {}, {}, {}, nullptr};
+  Task task{Catalog::standard(), {}, {}, nullptr};
   const std::string name = task.catalog.object(arguments.object).name;
   const WorldModel world = loadWorld(task.catalog, arguments.world);
   const std::string robot = task.catalog.robot(world.robot).name;
-  const CaseBase base(arguments.case_base, CaseBase::Access::kReadOnly);
-  for (const Case& push_case : inContext(base.cases(name), context)) {
-    if (isFor(push_case, name, robot)) task.cases.push_back(push_case);
-  }
-  for (const Case& push_case : inContext(base.cases(), PushContext{})) {
-    if (push_case.object != name && push_case.robot == robot) {
-      task.other_cases.push_back(push_case);
+  for (const Case& push_case :
+       inContext(CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(name), context)) {
+    if (isFor(push_case, name, robot)) {
+      task.cases.push_back(push_case);
     }
   }
   if (task.cases.empty()) {
@@ -129,6 +126,19 @@ Task prepareTask(const TaskArguments& arguments, const PushContext& context) {
   task.map = arguments.map.empty() ? surveyMap(world)
                                    : std::make_shared<const Map>(loadMap(arguments.map));
   return task;
+}
+
+std::vector<Case> otherCases(const TaskArguments& arguments, const Task& task) {
+  const std::string name = task.catalog.object(arguments.object).name;
+  const std::string robot = task.catalog.robot(task.problem.world.robot).name;
+  std::vector<Case> others;
+  for (const Case& push_case : inContext(
+           CaseBase(arguments.case_base, CaseBase::Access::kReadOnly).cases(), PushContext{})) {
+    if (push_case.object != name && push_case.robot == robot) {
+      others.push_back(push_case);
+    }
+  }
+  return others;
 }
 
 nlohmann::ordered_json poseJson(const Pose2& pose) {

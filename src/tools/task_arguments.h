@@ -41,14 +41,16 @@ PushPlannerOptions plannerOptions(const PlannerArguments& arguments);
 struct Task {
   Catalog catalog;
   PushProblem problem;
-  std::vector<Case> cases;        ///< Of the object.
-  std::vector<Case> other_cases;  ///< Of other objects, which may be pushed out of the way.
+  std::vector<Case> cases;  ///< Of the object.
   std::shared_ptr<const Map> map;
 };
 
 /// @param context  In which the object will be pushed: chooses among copies of a case.
 /// @throws InputError naming what cannot be used.
 Task prepareTask(const TaskArguments& arguments, const PushContext& context = {});
+
+/// Cases of the other objects, which may be pushed out of the way.
+std::vector<Case> otherCases(const TaskArguments& arguments, const Task& task);
 
 /// {"x_m", "y_m", "yaw_deg"}.
 nlohmann::ordered_json poseJson(const Pose2& pose);
