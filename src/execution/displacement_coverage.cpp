@@ -5,28 +5,13 @@
 #include <numeric>
 
 #include "casepush/common/check.h"
+#include "casepush/common/halton.h"
 
 namespace casepush {
 namespace {
 
 constexpr int kWanted = 512;
 constexpr int kReachPoses = 2000;
-
-/// Radical inverse: the i-th number of van der Corput's sequence in a base.
-double radicalInverse(int i, int base) {
-  double value = 0.0;
-  double digit = 1.0 / base;
-  for (; i > 0; i /= base) {
-    value += digit * (i % base);
-    digit /= base;
-  }
-  return value;
-}
-
-/// The i-th point of Halton's sequence in three dimensions, in [0, 1)^3.
-Eigen::Vector3d halton(int i) {
-  return {radicalInverse(i, 2), radicalInverse(i, 3), radicalInverse(i, 5)};
-}
 
 }  // namespace
 
