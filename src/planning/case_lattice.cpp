@@ -8,6 +8,7 @@
 
 #include "chain_search.h"
 #include "origin_distance.h"
+#include "pose_cell.h"
 
 namespace casepush {
 namespace {
@@ -93,12 +94,7 @@ class Lattice {
   };
 
   std::uint64_t cellOf(const Pose2& pose) const {
-    constexpr std::int64_t kOffset = 1 << 20;  // Maps indices of either sign into 21 bits.
-    const auto index = [](double value) {
-      return static_cast<std::uint64_t>(std::llround(value) + kOffset) & 0x1fffff;
-    };
-    return index(pose.x() / options_.cell_m) << 42 | index(pose.y() / options_.cell_m) << 21 |
-           index(pose.yaw() * problem_.gyration_radius_m / options_.cell_m);
+    return poseCell(pose, options_.cell_m, problem_.gyration_radius_m);
   }
 
   double bestCost() const { return goal_ >= 0 ? nodes_[goal_].cost_s : kInfinity; }

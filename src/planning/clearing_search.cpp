@@ -6,6 +6,8 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "pose_cell.h"
+
 namespace casepush {
 namespace {
 
@@ -56,12 +58,7 @@ class Expansion {
   bool isFull() const { return static_cast<int>(nodes_.size()) >= problem_.max_nodes; }
 
   std::uint64_t cell(const Pose2& pose) const {
-    constexpr std::int64_t kOffset = 1 << 20;  // Maps indices of either sign into 21 bits.
-    const auto index = [](double value) {
-      return static_cast<std::uint64_t>(std::llround(value) + kOffset) & 0x1fffff;
-    };
-    return index(pose.x() / problem_.spacing_m) << 42 | index(pose.y() / problem_.spacing_m) << 21 |
-           index(pose.yaw() * problem_.gyration_radius_m / problem_.spacing_m);
+    return poseCell(pose, problem_.spacing_m, problem_.gyration_radius_m);
   }
 
   void expand(int id) {

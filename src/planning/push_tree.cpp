@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "casepush/common/check.h"
+#include "pose_cell.h"
 
 namespace casepush {
 namespace {
@@ -34,14 +35,7 @@ void PushTree::clear() {
   open_ids_.clear();
 }
 
-std::uint64_t PushTree::cell(const Pose2& pose) const {
-  constexpr std::int64_t kOffset = 1 << 20;  // Maps indices of either sign into 21 bits.
-  const auto index = [](double value) {
-    return static_cast<std::uint64_t>(std::llround(value) + kOffset) & 0x1fffff;
-  };
-  return index(pose.x() / spacing_m_) << 42 | index(pose.y() / spacing_m_) << 21 |
-         index(pose.yaw() * rho_m_ / spacing_m_);
-}
+std::uint64_t PushTree::cell(const Pose2& pose) const { return poseCell(pose, spacing_m_, rho_m_); }
 
 int PushTree::add(const PushNode& node, bool grows) {
   const int id = size();
