@@ -45,24 +45,26 @@ std::vector<std::string> PushPlanner::inTheWay(const PushPlan& plan, const std::
   const std::size_t pushes =
       count < 0 ? plan.pushes.size() : std::min<std::size_t>(count, plan.pushes.size());
   const double step_m = kStepPerCell * data_->checker.columns().resolution_m;
+  PushChecker alone = data_->pushChecker(plan.object.model, {});
+  std::vector<std::pair<PreparedCase, Pose2>> safe;  // What hits the map anyway blames nobody.
+  for (std::size_t i = 0; i < pushes; ++i) {
+    const PlannedPush& push = plan.pushes[i];
+    const Case* push_case = find(cases, push.case_id);
+    if (push_case == nullptr) continue;
+    const auto prepared =
+        prepareCases({*push_case}, plan.zeta, step_m, data_->objects.at(plan.object.model).radius_m,
+                     data_->robot.radius_m);
+    if (alone.conflict(prepared.front(), push.map_T_start) == PushConflict::kNone) {
+      safe.emplace_back(prepared.front(), push.map_T_start);
+    }
+  }
   for (const PlacedObject& obstacle : nearest) {
-    PushChecker alone = data_->pushChecker(plan.object.model, {});
     PushChecker together =
         data_->pushChecker(plan.object.model, placeObstacles({obstacle}, data_->objects));
-    for (std::size_t i = 0; i < pushes; ++i) {
-      const PlannedPush& push = plan.pushes[i];
-      const Case* push_case = find(cases, push.case_id);
-      if (push_case == nullptr) continue;
-      const auto prepared =
-          prepareCases({*push_case}, plan.zeta, step_m,
-                       data_->objects.at(plan.object.model).radius_m, data_->robot.radius_m);
-      // What hits the map anyway is not for an obstacle to be blamed.
-      if (together.conflict(prepared.front(), push.map_T_start) != PushConflict::kNone &&
-          alone.conflict(prepared.front(), push.map_T_start) == PushConflict::kNone) {
-        ids.push_back(obstacle.id);
-        break;
-      }
-    }
+    const bool is_hit = std::any_of(safe.begin(), safe.end(), [&together](const auto& push) {
+      return together.conflict(push.first, push.second) != PushConflict::kNone;
+    });
+    if (is_hit) ids.push_back(obstacle.id);
   }
   return ids;
 }
