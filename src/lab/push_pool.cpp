@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "casepush/common/random.h"
+#include "room_builder.h"
 
 namespace casepush {
 namespace {
@@ -10,8 +11,6 @@ namespace {
 constexpr char kObjectId[] = "object";
 constexpr double kOpenHalfM = 8.0;
 constexpr double kWalledHalfM = 5.0;
-constexpr double kWallM = 0.1;
-constexpr double kWallHeightM = 1.5;
 constexpr double kPushLimitS = 180.0;
 // Pushes under way ahead of the one that is judged, for each thread.
 constexpr int kAheadPerJob = 2;
@@ -29,17 +28,12 @@ RobotPath straightPath(const Observation& observation, const Pose2& goal,
 }  // namespace
 
 void addWalls(WorldModel& world, double half_m) {
-  const double at = half_m - 0.5 * kWallM;
-  const auto add = [&](const std::string& name, double x, double y, double length_x,
-                       double length_y) {
-    StaticBox wall{name, Box{{length_x, length_y, kWallHeightM}}, Eigen::Isometry3d::Identity()};
-    wall.map_T_box.translation() = Eigen::Vector3d(x, y, 0.5 * kWallHeightM);
-    world.boxes.push_back(wall);
-  };
-  add("wall_south", 0.0, -at, 2.0 * half_m, kWallM);
-  add("wall_north", 0.0, at, 2.0 * half_m, kWallM);
-  add("wall_west", -at, 0.0, kWallM, 2.0 * (half_m - kWallM));
-  add("wall_east", at, 0.0, kWallM, 2.0 * (half_m - kWallM));
+  const double at = half_m - 0.5 * kWall_m;
+  const double inside = 2.0 * (half_m - kWall_m);
+  world.boxes.push_back(wall("wall_south", 2.0 * half_m, kWall_m, 0.0, -at));
+  world.boxes.push_back(wall("wall_north", 2.0 * half_m, kWall_m, 0.0, at));
+  world.boxes.push_back(wall("wall_west", kWall_m, inside, -at, 0.0));
+  world.boxes.push_back(wall("wall_east", kWall_m, inside, at, 0.0));
 }
 
 WorldModel learningArena(const std::string& object, const std::string& robot, bool walls) {
