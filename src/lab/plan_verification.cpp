@@ -5,6 +5,7 @@
 
 #include "casepush/common/input_error.h"
 #include "casepush/common/random.h"
+#include "casepush/lab/binomial_interval.h"
 #include "casepush/world/fcl_checker.h"
 
 namespace casepush {
@@ -149,20 +150,18 @@ RiskVerification verifyRisk(const Map& map, const std::vector<PlacedSolid>& obst
   RiskVerification result;
   result.draws = draws;
   const double n = draws;
+  int hits = 0;
   for (int draw = 0; draw < draws; ++draw) {
     Pose2 end;
     const bool hit =
         drawCollides(plan, cases, static_cast<std::size_t>(horizon), &random, &verifier, &end);
-    result.collision_probability += hit ? 1.0 / n : 0.0;
+    hits += hit ? 1 : 0;
     result.goal_probability += plan.tolerance.isMet(plan.map_T_goal, end) ? 1.0 / n : 0.0;
   }
-  constexpr double kZ = 1.96;
-  const double p = result.collision_probability;
-  const double centre = (p + 0.5 * kZ * kZ / n) / (1.0 + kZ * kZ / n);
-  const double half =
-      kZ / (1.0 + kZ * kZ / n) * std::sqrt(p * (1.0 - p) / n + 0.25 * kZ * kZ / (n * n));
-  result.low = std::max(0.0, centre - half);
-  result.high = std::min(1.0, centre + half);
+  const BinomialInterval interval = wilsonInterval(hits, draws);
+  result.collision_probability = interval.share;
+  result.low = interval.low;
+  result.high = interval.high;
   result.valid = result.low <= plan.max_collision_probability.value_or(1.0);
   return result;
 }
