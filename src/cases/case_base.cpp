@@ -50,6 +50,27 @@ std::vector<ObservedOutcome> firstHistory(const Case& push_case,
   return {{outcome, firstSource(push_case.origin), 0.0, floor, stamp_s, push_case.context, {}}};
 }
 
+// What is stored of a case that comes without its history.
+// @throws InputError naming `where` if the case or its names can not be stored.
+CaseRecord firstRecord(const Case& push_case, const std::optional<double>& stamp_s,
+                       const CovarianceFloor& floor, const std::string& where) {
+  validateCase(push_case, where);
+  floor.validate();
+  requirePrintable(push_case.object, where + ": object");
+  requirePrintable(push_case.robot, where + ": robot");
+  CaseRecord record{push_case, {}, firstHistory(push_case, stamp_s, floor)};
+  record.prior = {static_cast<int>(record.history.size()),
+                  push_case.start_outcome,
+                  push_case.effective_count,
+                  push_case.observation_count,
+                  floor,
+                  push_case.tube};
+  if (push_case.tube.empty()) {
+    record.push_case.tube = tubeFromOutcome(push_case.steps, push_case.start_outcome, floor);
+  }
+  return record;
+}
+
 void validatePush(const ObservedPush& push, const std::string& where) {
   if (!push.start_T_object.isFinite()) {
     throw InputError(where, "observed outcome is not finite");
@@ -106,6 +127,16 @@ Case existingCase(SqliteDatabase& database, std::int64_t id) {
 
 CaseBase::CaseBase(const fs::path& file, Access access)
     : database_(new Database{openCaseFile(file, access)}) {}
+CaseBase::CaseBase(const std::vector<Case>& cases, const CovarianceFloor& floor)
+    : database_(new Database{openCaseMemory()}) {
+  SqliteDatabase& sqlite = database_->sqlite;
+  SqliteTransaction transaction(sqlite, Kind::kWrite);
+  for (const Case& push_case : cases) {
+    insertCase(sqlite, firstRecord(push_case, std::nullopt, floor, whereIs(sqlite, push_case.id)),
+               push_case.id);
+  }
+  transaction.commit();
+}
 CaseBase::~CaseBase() = default;
 CaseBase::CaseBase(CaseBase&&) noexcept = default;
 CaseBase& CaseBase::operator=(CaseBase&&) noexcept = default;
@@ -123,21 +154,7 @@ int CaseBase::count() const {
 std::int64_t CaseBase::add(const Case& push_case, const std::optional<double>& stamp_s,
                            const CovarianceFloor& floor) {
   SqliteDatabase& sqlite = database_->sqlite;
-  const std::string where = sqlite.file() + ": new case";
-  validateCase(push_case, where);
-  floor.validate();
-  requirePrintable(push_case.object, where + ": object");
-  requirePrintable(push_case.robot, where + ": robot");
-  CaseRecord record{push_case, {}, firstHistory(push_case, stamp_s, floor)};
-  record.prior = {static_cast<int>(record.history.size()),
-                  push_case.start_outcome,
-                  push_case.effective_count,
-                  push_case.observation_count,
-                  floor,
-                  push_case.tube};
-  if (push_case.tube.empty()) {
-    record.push_case.tube = tubeFromOutcome(push_case.steps, push_case.start_outcome, floor);
-  }
+  const CaseRecord record = firstRecord(push_case, stamp_s, floor, sqlite.file() + ": new case");
   SqliteTransaction transaction(sqlite, Kind::kWrite);
   const std::int64_t id = insertCase(sqlite, record);
   transaction.commit();

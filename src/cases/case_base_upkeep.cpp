@@ -25,11 +25,12 @@ bool isSame(const ObservedOutcome& a, const ObservedOutcome& b) {
 }
 
 // What makes two cases of different bases the same case.
-using Identity = std::tuple<std::string, std::string, double, std::string, std::string>;
+using Identity = std::tuple<std::string, std::string, double, std::string, int, std::string>;
 
 Identity identityOf(const Case& push_case) {
-  return {push_case.object, push_case.robot, push_case.context.load_kg.value_or(-1.0),
-          push_case.context.floor, encodeSteps(push_case.steps)};
+  return {
+      push_case.object,        push_case.robot,           push_case.context.load_kg.value_or(-1.0),
+      push_case.context.floor, push_case.context.noticed, encodeSteps(push_case.steps)};
 }
 
 // Adds to a known case what only the other record holds. Returns the number of observations.
@@ -116,20 +117,6 @@ std::int64_t CaseBase::copy(std::int64_t id, const PushContext& context) {
   const std::int64_t copy_id = insertCase(sqlite, record);
   transaction.commit();
   return copy_id;
-}
-
-std::int64_t CaseBase::forContext(std::int64_t id, const PushContext& context) {
-  const Case original = get(id);
-  const bool is_unknown = !context.load_kg && context.floor.empty();
-  if (is_unknown || contextDistance(original.context, context) == 0.0) {
-    return id;
-  }
-  for (const Case& push_case : cases(original.object)) {
-    if (push_case.source_id == id && contextDistance(push_case.context, context) == 0.0) {
-      return push_case.id;
-    }
-  }
-  return copy(id, context);
 }
 
 std::vector<UselessCase> CaseBase::prune(const std::string& object, const PruneOptions& options) {

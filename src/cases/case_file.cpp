@@ -195,4 +195,11 @@ SqliteDatabase openCaseFile(const fs::path& file, CaseBase::Access access) {
   return open(file, access, Mode::kImmutable);
 }
 
+SqliteDatabase openCaseMemory() {
+  SqliteDatabase database(":memory:", SqliteDatabase::Mode::kCreate);
+  database.execute("PRAGMA foreign_keys = ON");
+  migrate(database);
+  return database;
+}
+
 }  // namespace casepush

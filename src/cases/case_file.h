@@ -13,4 +13,7 @@ namespace casepush {
 /// @throws InputError, see CaseBase.
 SqliteDatabase openCaseFile(const std::filesystem::path& file, CaseBase::Access access);
 
+/// An empty case base in memory.
+SqliteDatabase openCaseMemory();
+
 }  // namespace casepush

@@ -8,7 +8,7 @@ namespace casepush {
 namespace {
 
 constexpr char kSelectCases[] =
-    "SELECT id, object, robot, origin, source_id, load_kg, floor, period_s, push_steps, "
+    "SELECT id, object, robot, origin, source_id, load_kg, floor, noticed, period_s, push_steps, "
     "effective_count, observation_count, mean_x_m, mean_y_m, mean_yaw_rad, cov_x_x, cov_x_y, "
     "cov_x_yaw, cov_y_y, cov_y_yaw, cov_yaw_yaw, steps, tube "
     "FROM cases LEFT JOIN steps ON steps.case_id = id LEFT JOIN tubes ON tubes.case_id = id ";
@@ -25,6 +25,16 @@ std::optional<double> optionalReal(const SqliteStatement& row, int column) {
   return row.isNull(column) ? std::nullopt : std::optional<double>(row.real(column));
 }
 
+/// Load, floor and number of the noticed change, from three columns.
+PushContext readContext(const SqliteStatement& row, int first_column) {
+  return {optionalReal(row, first_column), row.text(first_column + 1),
+          static_cast<int>(row.integer(first_column + 2))};
+}
+
+void bindContext(SqliteStatement& statement, const PushContext& context) {
+  statement.bind(context.load_kg).bind(context.floor).bind(std::int64_t{context.noticed});
+}
+
 Case readCase(const SqliteDatabase& database, const SqliteStatement& row) {
   Case push_case;
   push_case.id = row.integer(0);
@@ -33,14 +43,14 @@ Case readCase(const SqliteDatabase& database, const SqliteStatement& row) {
   push_case.robot = row.text(2);
   push_case.origin = orDamaged(caseOriginFromString(row.text(3)), where + ": origin");
   push_case.source_id = row.integer(4);
-  push_case.context = {optionalReal(row, 5), row.text(6)};
-  push_case.period_s = row.real(7);
-  push_case.push_steps = static_cast<int>(row.integer(8));
-  push_case.effective_count = row.real(9);
-  push_case.observation_count = static_cast<int>(row.integer(10));
-  push_case.start_outcome = readGaussian(row, 11);
-  push_case.steps = decodeSteps(row.blob(20), where + ": steps");
-  push_case.tube = decodeTube(row.blob(21), where + ": tube");
+  push_case.context = readContext(row, 5);
+  push_case.period_s = row.real(8);
+  push_case.push_steps = static_cast<int>(row.integer(9));
+  push_case.effective_count = row.real(10);
+  push_case.observation_count = static_cast<int>(row.integer(11));
+  push_case.start_outcome = readGaussian(row, 12);
+  push_case.steps = decodeSteps(row.blob(21), where + ": steps");
+  push_case.tube = decodeTube(row.blob(22), where + ": tube");
   validateCase(push_case, where);
   return push_case;
 }
@@ -152,7 +162,7 @@ CasePrior selectPrior(SqliteDatabase& database, std::int64_t id) {
 std::vector<ObservedOutcome> selectHistory(SqliteDatabase& database, std::int64_t id) {
   SqliteStatement rows(database,
                        "SELECT source, x_m, y_m, yaw_rad, past_weight, noise_m, noise_rad, "
-                       "stamp_s, load_kg, floor, path FROM outcomes WHERE case_id = ? "
+                       "stamp_s, load_kg, floor, noticed, path FROM outcomes WHERE case_id = ? "
                        "ORDER BY number");
   rows.bind(id);
   const std::string where = whereIs(database, id) + ": history";
@@ -164,9 +174,9 @@ std::vector<ObservedOutcome> selectHistory(SqliteDatabase& database, std::int64_
     outcome.past_weight = rows.real(4);
     outcome.noise = {rows.real(5), rows.real(6)};
     outcome.stamp_s = optionalReal(rows, 7);
-    outcome.context = {optionalReal(rows, 8), rows.text(9)};
-    if (!rows.isNull(10)) {
-      outcome.path = decodePath(rows.blob(10), where);
+    outcome.context = readContext(rows, 8);
+    if (!rows.isNull(11)) {
+      outcome.path = decodePath(rows.blob(11), where);
     }
     history.push_back(std::move(outcome));
   }
@@ -177,17 +187,22 @@ CaseRecord selectRecord(SqliteDatabase& database, const Case& push_case) {
   return {push_case, selectPrior(database, push_case.id), selectHistory(database, push_case.id)};
 }
 
-std::int64_t insertCase(SqliteDatabase& database, const CaseRecord& record) {
+std::int64_t insertCase(SqliteDatabase& database, const CaseRecord& record,
+                        const std::optional<std::int64_t>& wanted_id) {
   const Case& push_case = record.push_case;
   SqliteStatement statement(
       database,
-      "INSERT INTO cases (object, robot, origin, source_id, load_kg, floor, period_s, push_steps, "
-      "mean_x_m, mean_y_m, mean_yaw_rad, cov_x_x, cov_x_y, cov_x_yaw, cov_y_y, cov_y_yaw, "
+      "INSERT INTO cases (id, object, robot, origin, source_id, load_kg, floor, noticed, period_s, "
+      "push_steps, mean_x_m, mean_y_m, mean_yaw_rad, cov_x_x, cov_x_y, cov_x_yaw, cov_y_y, "
+      "cov_y_yaw, "
       "cov_yaw_yaw, effective_count, observation_count) "
-      "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-  statement.bind(push_case.object).bind(push_case.robot).bind(toString(push_case.origin));
+      "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  statement.bind(wanted_id)
+      .bind(push_case.object)
+      .bind(push_case.robot)
+      .bind(toString(push_case.origin));
   statement.bind(push_case.source_id);
-  statement.bind(push_case.context.load_kg).bind(push_case.context.floor);
+  bindContext(statement, push_case.context);
   statement.bind(push_case.period_s).bind(std::int64_t{push_case.push_steps});
   bindGaussian(statement, push_case.start_outcome);
   statement.bind(push_case.effective_count).bind(std::int64_t{push_case.observation_count});
@@ -217,14 +232,14 @@ void insertOutcome(SqliteDatabase& database, std::int64_t id, const ObservedOutc
   SqliteStatement statement(
       database,
       "INSERT INTO outcomes (case_id, number, source, x_m, y_m, yaw_rad, past_weight, noise_m, "
-      "noise_rad, stamp_s, load_kg, floor, path) "
+      "noise_rad, stamp_s, load_kg, floor, noticed, path) "
       "VALUES (?1, (SELECT ifnull(max(number), 0) + 1 FROM outcomes WHERE case_id = ?1), "
-      "?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)");
+      "?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)");
   const Pose2& pose = outcome.start_T_object;
   statement.bind(id).bind(toString(outcome.source));
   statement.bind(pose.x()).bind(pose.y()).bind(pose.yaw()).bind(outcome.past_weight);
   statement.bind(outcome.noise.position_m).bind(outcome.noise.yaw_rad).bind(outcome.stamp_s);
-  statement.bind(outcome.context.load_kg).bind(outcome.context.floor);
+  bindContext(statement, outcome.context);
   if (!outcome.path.empty()) {
     statement.bindBlob(encodePath(outcome.path));
   }

@@ -45,8 +45,9 @@ CasePrior selectPrior(SqliteDatabase& database, std::int64_t id);
 std::vector<ObservedOutcome> selectHistory(SqliteDatabase& database, std::int64_t id);
 CaseRecord selectRecord(SqliteDatabase& database, const Case& push_case);
 
-/// Inserts under a new id, which is returned.
-std::int64_t insertCase(SqliteDatabase& database, const CaseRecord& record);
+/// Inserts under the wanted id, which must be free, or else under a new one. Returns the id.
+std::int64_t insertCase(SqliteDatabase& database, const CaseRecord& record,
+                        const std::optional<std::int64_t>& wanted_id = std::nullopt);
 void insertTrajectories(SqliteDatabase& database, std::int64_t id,
                         const std::vector<CaseStep>& steps, const std::vector<PoseGaussian>& tube);
 void insertOutcome(SqliteDatabase& database, std::int64_t id, const ObservedOutcome& outcome);

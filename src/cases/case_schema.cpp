@@ -110,6 +110,12 @@ INSERT INTO priors SELECT id, (SELECT ifnull(max(number), 0) FROM outcomes WHERE
 ALTER TABLE cases DROP COLUMN steps;
 )sql";
 
+// Which of the changes that pushes gave away an observation belongs to.
+constexpr char kVersion3[] = R"sql(
+ALTER TABLE cases ADD COLUMN noticed INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE outcomes ADD COLUMN noticed INTEGER NOT NULL DEFAULT 0;
+)sql";
+
 void moveTrajectories(SqliteDatabase& database) {
   SqliteStatement rows(database,
                        "SELECT id, steps, mean_x_m, mean_y_m, mean_yaw_rad, cov_x_x, cov_x_y, "
@@ -150,6 +156,9 @@ void migrate(SqliteDatabase& database) {
   }
   if (version < 2) {
     toVersion2(database);
+  }
+  if (version < 3) {
+    database.execute(kVersion3);
   }
   database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   transaction.commit();

@@ -5,7 +5,7 @@
 namespace casepush {
 
 inline constexpr std::int64_t kCaseFileId = 0x43507368;  ///< PRAGMA application_id: "CPsh".
-inline constexpr std::int64_t kSchemaVersion = 2;        ///< PRAGMA user_version.
+inline constexpr std::int64_t kSchemaVersion = 3;        ///< PRAGMA user_version.
 
 /// The schema version of a file; 0 if it is empty.
 std::int64_t schemaVersion(SqliteDatabase& database);

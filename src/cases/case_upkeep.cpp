@@ -113,9 +113,11 @@ std::vector<UselessCase> uselessCases(const std::vector<Case>& cases, const Prun
 
 double contextDistance(const PushContext& a, const PushContext& b) {
   constexpr double kOtherFloorKg = 1e6;
+  constexpr double kNoticedKg = 1e5;  // From what was told to a noticed change, whichever it is.
   const bool other_floor = !a.floor.empty() && !b.floor.empty() && a.floor != b.floor;
   return std::abs(a.load_kg.value_or(0.0) - b.load_kg.value_or(0.0)) +
-         (other_floor ? kOtherFloorKg : 0.0);
+         (other_floor ? kOtherFloorKg : 0.0) +
+         (a.noticed == b.noticed ? 0.0 : kNoticedKg * ((a.noticed > 0) + (b.noticed > 0)));
 }
 
 std::vector<Case> learntIn(std::vector<Case> cases, const PushContext& context) {
@@ -126,34 +128,42 @@ std::vector<Case> learntIn(std::vector<Case> cases, const PushContext& context) 
   return cases;
 }
 
-std::vector<Case> inContext(const std::vector<Case>& cases, const PushContext& context) {
+std::map<std::int64_t, std::int64_t> families(const std::vector<Case>& cases) {
   std::map<std::int64_t, const Case*> by_id;
   for (const Case& push_case : cases) {
     by_id[push_case.id] = &push_case;
   }
   std::map<std::int64_t, std::int64_t> family_of;
-  std::map<std::int64_t, const Case*> chosen;  // By family. Ids ascend, sources come first.
-  for (const auto& [id, push_case] : by_id) {
+  for (const auto& [id, push_case] : by_id) {  // Ids ascend, sources come first.
     const auto source = by_id.find(push_case->source_id);
     const bool is_copy = source != by_id.end() && source->first < id &&
                          isFor(*push_case, source->second->object, source->second->robot);
-    const std::int64_t family = is_copy ? family_of[source->first] : id;
-    family_of[id] = family;
-    const Case*& best = chosen[family];
-    if (best == nullptr ||
-        contextDistance(push_case->context, context) < contextDistance(best->context, context)) {
-      best = push_case;
+    family_of[id] = is_copy ? family_of[source->first] : id;
+  }
+  return family_of;
+}
+
+std::vector<Case> inContext(const std::vector<Case>& cases, const PushContext& context) {
+  const std::map<std::int64_t, std::int64_t> family_of = families(cases);
+  const auto rank = [&context](const Case& push_case) {
+    return std::make_pair(contextDistance(push_case.context, context), push_case.id);
+  };
+  std::map<std::int64_t, const Case*> chosen;  // By family.
+  for (const Case& push_case : cases) {
+    const Case*& best = chosen[family_of.at(push_case.id)];
+    if (best == nullptr || rank(push_case) < rank(*best)) {
+      best = &push_case;
     }
   }
-  std::set<std::int64_t> ids;
+  std::map<std::int64_t, const Case*> by_id;
   for (const auto& [family, push_case] : chosen) {
-    ids.insert(push_case->id);
+    by_id[push_case->id] = push_case;
   }
-  std::vector<Case> selected;
-  for (const std::int64_t id : ids) {
-    selected.push_back(*by_id[id]);
+  std::vector<Case> result;
+  for (const auto& [id, push_case] : by_id) {
+    result.push_back(*push_case);
   }
-  return selected;
+  return result;
 }
 
 }  // namespace casepush

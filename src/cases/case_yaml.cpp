@@ -64,6 +64,9 @@ PushContext readContext(YamlReader& reader) {
     context.load_kg = reader.number("load_kg", 0.0, kLargest);
   }
   context.floor = reader.text("floor", "");
+  if (reader.has("noticed")) {
+    context.noticed = reader.integer("noticed", 0, kLargestInt);
+  }
   validateContext(context, reader.where());
   return context;
 }

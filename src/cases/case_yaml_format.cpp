@@ -84,6 +84,9 @@ void appendContext(std::string& yaml, const std::string& indent, const PushConte
   if (!context.floor.empty()) {
     yaml += indent + "floor: " + quoted(context.floor) + '\n';
   }
+  if (context.noticed > 0) {
+    yaml += indent + "noticed: " + std::to_string(context.noticed) + '\n';
+  }
 }
 
 void appendOutcome(std::string& yaml, const ObservedOutcome& outcome) {

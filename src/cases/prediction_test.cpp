@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
@@ -18,6 +19,9 @@ constexpr CovarianceFloor kPrior{0.15, 0.3};
 
 // No distribution is trusted to be sharper; keeps a singular covariance from dividing by zero.
 constexpr CovarianceFloor kSharpest{1e-4, 1e-4};
+
+// Between one day and another, however sharp a case.
+constexpr CovarianceFloor kUnexplained{0.015, 0.05};
 
 Eigen::Matrix3d diagonal(const CovarianceFloor& deviation) {
   return Eigen::Vector3d(deviation.position_m, deviation.position_m, deviation.yaw_rad)
@@ -72,6 +76,16 @@ PredictionTest testPrediction(const OutcomeStatistics& past, const Pose2& start_
   }
   const double t_squared = n / (n + 1.0) * squaredMahalanobis(e, n / (n - 1.0) * covariance);
   return verdict(t_squared, hotellingTail(t_squared, n), alpha);
+}
+
+double logPredictive(const OutcomeStatistics& past, const Pose2& start_T_object) {
+  CASEPUSH_CHECK(past.effective_count > 0.0, "count = " << past.effective_count);
+  const double n = past.effective_count;
+  const double spread = n < 1.0 ? 1.0 : 1.0 + 1.0 / n;
+  const Eigen::Matrix3d covariance =
+      spread * past.start_outcome.covariance + diagonal(kUnexplained);
+  const Eigen::Vector3d e = logSe2(past.start_outcome.mean.inverse() * start_T_object);
+  return -0.5 * (e.dot(covariance.ldlt().solve(e)) + std::log(covariance.determinant()));
 }
 
 PredictionTest testPlugIn(const OutcomeStatistics& past, const Pose2& start_T_object,

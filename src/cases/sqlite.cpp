@@ -155,6 +155,13 @@ SqliteStatement& SqliteStatement::bind(std::int64_t value) {
   return *this;
 }
 
+SqliteStatement& SqliteStatement::bind(const std::optional<std::int64_t>& value) {
+  if (value) {
+    return bind(*value);
+  }
+  return bind(std::optional<double>());
+}
+
 SqliteStatement& SqliteStatement::bind(double value) {
   require(sqlite3_bind_double(handle_.get(), ++bound_, value));
   return *this;

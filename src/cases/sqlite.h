@@ -68,6 +68,7 @@ class SqliteStatement {
   SqliteStatement(SqliteDatabase& database, const std::string& sql);
 
   SqliteStatement& bind(std::int64_t value);
+  SqliteStatement& bind(const std::optional<std::int64_t>& value);  ///< NULL if there is none.
   SqliteStatement& bind(double value);
   SqliteStatement& bind(const std::optional<double>& value);  ///< NULL if there is none.
   SqliteStatement& bind(const std::string& value);

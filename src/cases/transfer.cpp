@@ -1,11 +1,11 @@
 #include "casepush/cases/transfer.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "casepush/cases/case_tube.h"
 #include "casepush/common/input_error.h"
+#include "guess.h"
 
 namespace casepush {
 namespace {
@@ -71,10 +71,7 @@ void loosen(Case& push_case, const Fit& fit, const TransferOptions& options) {
                options.base_rad + share * std::abs(mean.yaw()));
   const Eigen::Matrix3d scatter = push_case.start_outcome.covariance +
                                   diagonal(options.extra_scatter_m, options.extra_scatter_rad);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-      mean_uncertainty, scatter, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
-  push_case.effective_count = 1.0 / (1.0 + solver.eigenvalues().maxCoeff());
-  push_case.start_outcome.covariance = scatter / push_case.effective_count;
+  makeGuess(&push_case, scatter, mean_uncertainty);
 }
 
 }  // namespace

@@ -135,10 +135,8 @@ void ClearWay::Data::startPush() {
   const PushPlan plan = std::move(ways.back());
   ways.pop_back();  // Planned anew from where the obstacle comes to rest.
   const std::vector<Case> cases = services.cases(plan.object.model);
-  const auto found = std::find_if(cases.begin(), cases.end(), [&plan](const Case& each) {
-    return each.id == plan.pushes.front().case_id;
-  });
-  if (found == cases.end()) {
+  const Case* found = findCase(cases, plan.pushes.front().case_id);
+  if (found == nullptr) {
     getStuck(plan.object.id, "a case of its plan is not known here");
     return;
   }

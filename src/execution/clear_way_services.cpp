@@ -28,9 +28,8 @@ std::vector<std::string> inTheRobotsWay(const PushPlanner& planner, const PushPl
                                         const std::vector<Case>& cases, const Others& others,
                                         const Pose2& map_T_robot) {
   const PlannedPush& next = plan.pushes.front();
-  const auto found = std::find_if(cases.begin(), cases.end(),
-                                  [&next](const Case& each) { return each.id == next.case_id; });
-  if (found == cases.end()) return {};
+  const Case* found = findCase(cases, next.case_id);
+  if (found == nullptr) return {};
   const Pose2 map_T_begin = next.map_T_start * found->steps.front().start_T_robot();
   const double direction_rad = wrapAngle(next.map_T_start.yaw() + pushDirection(*found));
   const PlacedObject object{plan.object.id, plan.object.model, next.map_T_start};

@@ -30,10 +30,8 @@ ReplanCause causeOf(const PushReport& report) {
 void PushTask::Data::startPush(const Observation& observation) {
   const PlannedPush& planned = plan->pushes.front();
   const std::vector<Case> cases = services.cases();
-  const auto found = std::find_if(cases.begin(), cases.end(), [&planned](const Case& candidate) {
-    return candidate.id == planned.case_id;
-  });
-  if (found == cases.end()) {
+  const Case* found = findCase(cases, planned.case_id);
+  if (found == nullptr) {
     PlanResult unknown;
     unknown.status = PlanStatus::kUnreachable;
     unknown.explanation =

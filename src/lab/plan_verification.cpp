@@ -85,10 +85,8 @@ void testPush(const Case& push_case, const Pose2& map_T_start, double zeta, cons
 }
 
 const Case& caseOf(const PushPlan& plan, std::size_t push, const std::vector<Case>& cases) {
-  const auto found = std::find_if(cases.begin(), cases.end(), [&](const Case& push_case) {
-    return push_case.id == plan.pushes[push].case_id;
-  });
-  if (found == cases.end()) {
+  const Case* found = findCase(cases, plan.pushes[push].case_id);
+  if (found == nullptr) {
     throw InputError("plan", "push " + std::to_string(push + 1) + " needs case " +
                                  std::to_string(plan.pushes[push].case_id) +
                                  ", which is not there");

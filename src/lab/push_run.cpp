@@ -10,29 +10,33 @@ constexpr double kSettleS = 1.0;
 /// Cases in memory that the pushes of one task adapt.
 class WorkingCases {
  public:
-  WorkingCases(std::vector<Case> cases, const PushRunOptions& options)
-      : cases_(std::move(cases)), options_(options) {}
+  WorkingCases(const std::vector<Case>& cases, const std::string& object,
+               const PushRunOptions& options)
+      : adapt_(options.adapt),
+        base_(cases, options.adapting.floor),
+        adapting_(&base_, {}, options.adapting) {
+    adapting_.tell(object, options.context);
+    present_ = adapting_.cases();
+  }
 
-  const std::vector<Case>& all() const { return cases_; }
+  const std::vector<Case>& present() const { return present_; }
 
-  void learnFrom(const PushReport& report) {
-    if (!options_.adapt || !isObservation(report)) {
-      return;
-    }
-    for (Case& push_case : cases_) {
-      if (push_case.id == report.case_id) {
-        const ObservedPush push = observedPush(report);
-        const double weight =
-            adaptationWeight({push_case.start_outcome, push_case.effective_count},
-                             push.start_T_object, report.test.p_value, options_.adaptation);
-        push_case = withPush(std::move(push_case), push, weight, options_.floor);
-      }
-    }
+  /// The case that was given for the one of a report, which may be a copy made since.
+  std::int64_t given(std::int64_t id) const { return families(base_.cases()).at(id); }
+
+  /// What adapting says, if anything.
+  std::string learnFrom(const PushReport& report) {
+    if (!adapt_ || !isObservation(report)) return {};
+    std::string notice = adapting_.learnFrom(report);
+    present_ = adapting_.cases();
+    return notice;
   }
 
  private:
-  std::vector<Case> cases_;
-  const PushRunOptions& options_;
+  bool adapt_;
+  CaseBase base_;
+  AdaptingCases adapting_;
+  std::vector<Case> present_;
 };
 
 }  // namespace
@@ -50,14 +54,14 @@ std::optional<PlanResult> DirectPlanClient::poll() { return std::exchange(result
 void DirectPlanClient::cancel() { result_.reset(); }
 
 PushRunResult runPushTask(const Catalog& catalog, const PushProblem& problem,
-                          std::vector<Case> cases, std::shared_ptr<const Map> map,
+                          const std::vector<Case>& cases, std::shared_ptr<const Map> map,
                           const PushRunOptions& options,
                           const std::function<void(const PushTask&)>& watch) {
   ClosedLoop loop(catalog, problem.world, options.lab);
   const PushPlanner planner(std::move(map), loop.simulator().robot(),
                             catalog.objectsIn(problem.world), options.planner);
-  WorkingCases working(std::move(cases), options);
-  const auto current_cases = [&working] { return working.all(); };
+  WorkingCases working(cases, loop.simulator().object(problem.object_id).name, options);
+  const auto current_cases = [&working] { return working.present(); };
   DirectPlanClient plans(planner, current_cases);
 
   PushRunResult result;
@@ -68,7 +72,9 @@ PushRunResult runPushTask(const Catalog& catalog, const PushProblem& problem,
   services.clearing = clearWayServices(planner, loop.simulator().robot().name, current_cases);
   services.on_report = [&](const PushReport& report) {
     result.reports.push_back(report);
-    working.learnFrom(report);
+    result.reports.back().case_id = working.given(report.case_id);
+    const std::string notice = working.learnFrom(report);
+    if (!notice.empty()) result.noticed.push_back(notice);
   };
   services.on_plan = [&](const PlanResult& plan) { result.planning_s += plan.planning_s; };
 

@@ -162,6 +162,7 @@ void validateContext(const PushContext& context, const std::string& where) {
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   require(std::none_of(context.floor.begin(), context.floor.end(), is_control), where + ": floor",
           "holds a control character; must be a text on one line");
+  require(context.noticed >= 0, where + ": noticed", "must not be negative");
 }
 
 void validateCase(const Case& push_case, const std::string& where) {
@@ -190,6 +191,15 @@ double pushDirection(const Case& push_case) {
   for (const CaseStep& step : push_case.steps) poses.push_back(step.start_T_robot());
   // A push that only turns: towards the object.
   return motionDirection(poses).value_or(std::atan2(-poses.front().y(), -poses.front().x()));
+}
+
+const Case* findCase(const std::vector<Case>& cases, std::int64_t id) {
+  const Case* copy = nullptr;
+  for (const Case& push_case : cases) {
+    if (push_case.id == id) return &push_case;
+    if (push_case.source_id == id && copy == nullptr) copy = &push_case;
+  }
+  return copy;
 }
 
 bool isFor(const Case& push_case, const std::string& object, const std::string& robot) {

@@ -282,10 +282,8 @@ void PushPlanner::Data::chain(const std::vector<Case>& cases, PushChecker* push_
     PlannedPush& push = plan.pushes[i];
     const std::string name =
         "push " + std::to_string(i + 1) + " (case " + std::to_string(push.case_id) + ")";
-    const auto found = std::find_if(cases.begin(), cases.end(), [&push](const Case& push_case) {
-      return push_case.id == push.case_id;
-    });
-    if (found == cases.end()) {
+    const Case* found = findCase(cases, push.case_id);
+    if (found == nullptr) {
       rest->explanation = name + ": the case no longer exists";
       return;
     }

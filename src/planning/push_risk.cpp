@@ -251,10 +251,8 @@ void assessPlan(const std::vector<Case>& cases, const PreparationSizes& sizes,
   std::vector<Case> used;
   std::vector<int> pushes;
   for (const PlannedPush& push : plan->pushes) {
-    const auto found = std::find_if(cases.begin(), cases.end(), [&push](const Case& push_case) {
-      return push_case.id == push.case_id;
-    });
-    CASEPUSH_CHECK(found != cases.end(), "no case " << push.case_id);
+    const Case* found = findCase(cases, push.case_id);
+    CASEPUSH_CHECK(found != nullptr, "no case " << push.case_id);
     pushes.push_back(static_cast<int>(used.size()));
     used.push_back(*found);
   }

@@ -19,12 +19,6 @@ constexpr double kSightline_m = 3.0;  // Whatever is farther off counts as this 
 constexpr double kDocking_m = 0.4;    // Behind a push's start that the robot comes along.
 constexpr std::size_t kStride = 4;    // Stations of a way: its poses are half a cell apart.
 
-const Case* find(const std::vector<Case>& cases, std::int64_t id) {
-  const auto found =
-      std::find_if(cases.begin(), cases.end(), [id](const Case& each) { return each.id == id; });
-  return found == cases.end() ? nullptr : &*found;
-}
-
 /// Nearest first.
 void sortByDistance(const Pose2& pose, std::vector<PlacedObject>* obstacles) {
   std::stable_sort(obstacles->begin(), obstacles->end(),
@@ -49,7 +43,7 @@ std::vector<std::string> PushPlanner::inTheWay(const PushPlan& plan, const std::
   std::vector<std::pair<PreparedCase, Pose2>> safe;  // What hits the map anyway blames nobody.
   for (std::size_t i = 0; i < pushes; ++i) {
     const PlannedPush& push = plan.pushes[i];
-    const Case* push_case = find(cases, push.case_id);
+    const Case* push_case = findCase(cases, push.case_id);
     if (push_case == nullptr) continue;
     const auto prepared =
         prepareCases({*push_case}, plan.zeta, step_m, data_->objects.at(plan.object.model).radius_m,
@@ -112,7 +106,7 @@ void addWay(const PushPlan& plan, const std::vector<Case>& cases, const ObjectMo
   const Shadow object_outline = outlineOf(object.solid);
   const Shadow robot_outline = outlineOf(robot.solid);
   for (const PlannedPush& push : plan.pushes) {
-    const Case* push_case = find(cases, push.case_id);
+    const Case* push_case = findCase(cases, push.case_id);
     if (push_case == nullptr) continue;
     const PreparedCase prepared =
         prepareCases({*push_case}, plan.zeta, step_m, object.radius_m, robot.radius_m).front();

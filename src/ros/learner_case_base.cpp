@@ -23,18 +23,19 @@ void LearnerNode::onReport(const ExecutedPush& message) {
     return;
   }
   try {
-    adaptBy(fromMessage(message));
+    const std::string notice = adaptBy(fromMessage(message));
+    if (!notice.empty()) {
+      ROS_WARN("%s", notice.c_str());
+    }
     publishCases();
   } catch (const InputError& error) {
     ROS_ERROR("push report %u is not learnt from: %s", message.sequence, error.what());
   }
 }
 
-void LearnerNode::adaptBy(const PushReport& report) {
+std::string LearnerNode::adaptBy(const PushReport& report) {
   const std::lock_guard<std::mutex> lock(base_mutex_);
-  const std::int64_t id = base_.forContext(report.case_id, parameters_.context);
-  base_.adapt(id, observedPush(report, parameters_.context), report.test.p_value,
-              parameters_.adaptation, parameters_.floor);
+  return adapting_.learnFrom(report);
 }
 
 std::int64_t LearnerNode::addDemonstrated(const Case& push_case) {
@@ -43,7 +44,7 @@ std::int64_t LearnerNode::addDemonstrated(const Case& push_case) {
     const std::lock_guard<std::mutex> lock(base_mutex_);
     Case demonstrated = push_case;
     demonstrated.context = parameters_.context;
-    id = base_.add(demonstrated, std::nullopt, parameters_.floor);
+    id = base_.add(demonstrated, std::nullopt, parameters_.adapting.floor);
   }
   publishCases();
   return id;
@@ -76,8 +77,7 @@ bool LearnerNode::onImport(ImportCases::Request& request, ImportCases::Response&
 void LearnerNode::publishCases() {
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
-    cases_.publish(
-        toMessage(inContext(base_.cases(), parameters_.context), ros::Time::now().toSec()));
+    cases_.publish(toMessage(adapting_.cases(), ros::Time::now().toSec()));
   }
   publishMarkers();
 }
@@ -101,8 +101,7 @@ void LearnerNode::publishMarkers() {
   shown_at_ = object->map_T_object;
   lock.unlock();
   const std::lock_guard<std::mutex> base_lock(base_mutex_);
-  markers_.publish(caseMarkers(inContext(base_.cases(object->model), parameters_.context),
-                               object->map_T_object));
+  markers_.publish(caseMarkers(adapting_.cases(object->model), object->map_T_object));
 }
 
 void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -113,6 +112,14 @@ void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper&
   status.add("case base", parameters_.case_base);
   const std::lock_guard<std::mutex> lock(base_mutex_);
   status.add("cases", base_.count());
+  for (const Case& push_case : adapting_.cases()) {
+    if (push_case.context.noticed > 0) {
+      status.mergeSummaryf(diagnostic_msgs::DiagnosticStatus::OK,
+                           "%s: noticed change %d of load or floor", push_case.object.c_str(),
+                           push_case.context.noticed);
+      break;
+    }
+  }
 }
 
 }  // namespace casepush

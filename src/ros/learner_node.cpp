@@ -50,6 +50,7 @@ LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handl
     : parameters_(std::move(parameters)),
       handle_(handle),
       base_(parameters_.case_base, CaseBase::Access::kCreate),
+      adapting_(&base_, parameters_.context, parameters_.adapting),
       objects_(handle),
       execute_push_(handle, names::kExecutePushAction, true),
       server_(
@@ -300,8 +301,8 @@ void LearnerNode::store(Run& run, const Exploration::Trial& trial, const PushRep
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
     const PushGround* ground = run.ground ? &*run.ground : nullptr;
-    if (!keep(*run.exploration, trial, report, base_, {parameters_.floor, parameters_.context},
-              ground)) {
+    if (!keep(*run.exploration, trial, report, base_,
+              {parameters_.adapting.floor, parameters_.context}, ground)) {
       ROS_DEBUG("push not kept: %s %s", toString(report.outcome), report.explanation.c_str());
       return;
     }

@@ -307,13 +307,15 @@ LearnerNodeParameters loadLearnerNodeParameters(ParameterReader reader, const Ca
   readExploration(reader, parameters.exploration);
   readDemonstration(reader, parameters.demonstration);
   reader.read("case_base", parameters.case_base);
-  reader.read("floor_position", parameters.floor.position_m, 1e-6, 1.0);
-  reader.read("floor_yaw", parameters.floor.yaw_rad, 1e-6, 1.0);
-  reader.read("adaptation_k", parameters.adaptation.scale_k, 1.0, kUnbounded);
-  std::string weight = toString(parameters.adaptation.weight);
+  reader.read("floor_position", parameters.adapting.floor.position_m, 1e-6, 1.0);
+  reader.read("floor_yaw", parameters.adapting.floor.yaw_rad, 1e-6, 1.0);
+  reader.read("adaptation_k", parameters.adapting.adaptation.scale_k, 1.0, kUnbounded);
+  std::string weight = toString(parameters.adapting.adaptation.weight);
   reader.read("adaptation_weight", weight, {"bounded", "paper"});
-  reader.check(
-      [&] { parameters.adaptation.weight = pastWeightFromString(weight, "adaptation_weight"); });
+  reader.check([&] {
+    parameters.adapting.adaptation.weight = pastWeightFromString(weight, "adaptation_weight");
+  });
+  reader.read("notice_changes", parameters.adapting.notice);
   double load_kg = -1.0;
   reader.read("load", load_kg, -1.0, 10000.0);
   if (load_kg >= 0.0) {

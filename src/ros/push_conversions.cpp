@@ -96,6 +96,7 @@ PushCase toMessage(const Case& push_case) {
   message.source_id = push_case.source_id;
   message.load = push_case.context.load_kg.value_or(kUnknown);
   message.floor = push_case.context.floor;
+  message.noticed = static_cast<std::uint32_t>(push_case.context.noticed);
   for (const PoseGaussian& step : push_case.tube) {
     message.tube.push_back(toMessage(step));
   }
@@ -123,6 +124,7 @@ Case fromMessage(const PushCase& message) {
     push_case.context.load_kg = message.load;
   }
   push_case.context.floor = message.floor;
+  push_case.context.noticed = static_cast<int>(message.noticed);
   for (const Pose2DWithCovariance& step : message.tube) {
     push_case.tube.push_back(fromMessage(step));
   }

@@ -31,8 +31,7 @@ int list(const CasesArguments& arguments) {
                      {"effective_count", push_case.effective_count},
                      {"observations", push_case.observation_count}});
     if (push_case.source_id != 0) cases.back()["source_id"] = push_case.source_id;
-    if (push_case.context.load_kg) cases.back()["load_kg"] = *push_case.context.load_kg;
-    if (!push_case.context.floor.empty()) cases.back()["floor"] = push_case.context.floor;
+    addContext(push_case.context, &cases.back());
   }
   if (arguments.json) {
     printResult({{"cases", cases}}, true);
@@ -79,6 +78,12 @@ int importCases(const CasesArguments& arguments) {
 }
 
 }  // namespace
+
+void addContext(const PushContext& context, nlohmann::ordered_json* json) {
+  if (context.load_kg) (*json)["load_kg"] = *context.load_kg;
+  if (!context.floor.empty()) (*json)["floor"] = context.floor;
+  if (context.noticed > 0) (*json)["noticed"] = context.noticed;
+}
 
 void addCasesCommand(CLI::App& app, Run& run) {
   auto arguments = std::make_shared<CasesArguments>();

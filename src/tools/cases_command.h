@@ -23,6 +23,9 @@ CLI::App* addCasesSubcommand(CLI::App& cases, Run& run, const std::string& name,
   return command;
 }
 
+/// Adds what is known of a context.
+void addContext(const PushContext& context, nlohmann::ordered_json* json);
+
 /// undo, copy, remove, prune, merge and transfer.
 void addCasesEditCommands(CLI::App& cases, Run& run);
 

@@ -70,8 +70,7 @@ nlohmann::ordered_json historyJson(const std::vector<ObservedOutcome>& history, 
                                  {"start_T_object", json(outcome.start_T_object)},
                                  {"past_weight", outcome.past_weight}};
     if (outcome.stamp_s) entry["stamp_s"] = *outcome.stamp_s;
-    if (outcome.context.load_kg) entry["load_kg"] = *outcome.context.load_kg;
-    if (!outcome.context.floor.empty()) entry["floor"] = outcome.context.floor;
+    addContext(outcome.context, &entry);
     entry["path"] = list(outcome.path, [](const Pose2& pose) { return json(pose); });
     observations.push_back(entry);
   }
@@ -91,9 +90,8 @@ int dump(const ShowArguments& arguments) {
                                  {"object", push_case.object},
                                  {"robot", push_case.robot},
                                  {"origin", toString(push_case.origin)},
-                                 {"source_id", push_case.source_id},
-                                 {"floor", push_case.context.floor}};
-    if (push_case.context.load_kg) entry["load_kg"] = *push_case.context.load_kg;
+                                 {"source_id", push_case.source_id}};
+    addContext(push_case.context, &entry);
     entry["period_s"] = push_case.period_s;
     entry["push_steps"] = push_case.push_steps;
     entry["outcome"] = json(push_case.start_outcome);

@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-#include "casepush/cases/case_base.h"
+#include "casepush/cases/adapting_cases.h"
 #include "casepush/common/input_error.h"
 #include "command.h"
 #include "task_arguments.h"
@@ -92,15 +92,14 @@ PushContext contextOf(const PushArguments& arguments) {
 
 /// Adapts the stored cases as the task adapted its own. A case that was learnt with another load is
 /// copied first, and keeps what it knew.
-void keepWhatWasLearnt(const PushArguments& arguments, const std::string& object_id,
+void keepWhatWasLearnt(const PushArguments& arguments, const std::string& object,
                        const std::vector<PushReport>& reports) {
   CaseBase base(arguments.task.case_base, CaseBase::Access::kReadWrite);
+  AdaptingCases adapting(&base, {});
+  adapting.tell(object, contextOf(arguments));
   for (const PushReport& report : reports) {
-    const PushContext context =
-        report.object_id == object_id ? contextOf(arguments) : PushContext{};
     if (isObservation(report)) {
-      base.adapt(base.forContext(report.case_id, context), observedPush(report, context),
-                 report.test.p_value, AdaptationOptions{}, CovarianceFloor{});
+      adapting.learnFrom(report);
     }
   }
 }
@@ -118,6 +117,7 @@ int push(const PushArguments& arguments) {
     options.lab.simulator.loads[task.problem.object_id] = *arguments.load;
   }
   options.planner = plannerOptions(arguments.planner);
+  options.context = contextOf(arguments);
   options.adapt = !arguments.no_adapt;
   options.clear_obstacles = arguments.clear_obstacles;
   if (arguments.clear_obstacles) {
@@ -133,18 +133,18 @@ int push(const PushArguments& arguments) {
   if (result.status == PushTaskStatus::kInvalidGoal) {
     throw InputError("push", result.explanation);
   }
-  if (arguments.keep) {
-    keepWhatWasLearnt(arguments, task.problem.object_id, result.reports);
-  }
-  nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
-  for (const PushReport& report : result.reports) {
-    pushes.push_back(pushJson(report));
-  }
   const ObjectPlacement* start = nullptr;
   for (const ObjectPlacement& placement : task.problem.world.objects) {
     if (placement.id == task.problem.object_id) {
       start = &placement;
     }
+  }
+  if (arguments.keep) {
+    keepWhatWasLearnt(arguments, start->model, result.reports);
+  }
+  nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
+  for (const PushReport& report : result.reports) {
+    pushes.push_back(pushJson(report));
   }
   printResult({{"success", result.success},
                {"status", toString(result.status)},
@@ -157,6 +157,7 @@ int push(const PushArguments& arguments) {
                {"replan_causes", replanCausesJson(result.progress.replan_causes)},
                {"replan_reasons", result.progress.replan_reasons},
                {"rejected_predictions", result.progress.rejected_predictions},
+               {"noticed_changes", result.noticed},
                {"plan_length_m", result.progress.plan_length_m},
                {"sim_time_s", result.sim_time_s},
                {"collisions", result.collisions},

@@ -25,6 +25,7 @@ struct TaskExperimentArguments {
   std::string rest_rule = toString(RestRule::kLikelyEnd);
   std::string test = toString(OutcomeTest::kHotelling);
   bool no_break_off = false;
+  bool no_notice = false;
   bool replan_when_rejected = false;
 };
 
@@ -116,6 +117,7 @@ int runRows(const TaskExperimentArguments& arguments, const std::vector<Row>& ro
                {"test", arguments.test},
                {"alpha", arguments.experiment.run.task.push.alpha},
                {"break_off", !arguments.no_break_off},
+               {"notice", !arguments.no_notice},
                {"cases", arguments.experiment.learning.exploration.cases},
                {"case_bases", arguments.experiment.case_bases},
                {"rows", results},
@@ -136,6 +138,7 @@ TaskExperimentOptions commonOptions(const TaskExperimentArguments& arguments) {
                                    ? OutcomeTest::kPlugIn
                                    : OutcomeTest::kHotelling;
   options.run.task.break_off = !arguments.no_break_off;
+  options.run.adapting.notice = !arguments.no_notice;
   options.run.task.rest.replan_when_rejected = arguments.replan_when_rejected;
   return options;
 }
@@ -242,6 +245,9 @@ CLI::App* addExperiment(CLI::App& app, const char* name, const char* description
   command->add_flag("--replan-when-rejected", arguments->replan_when_rejected,
                     "Plan anew after each rejected prediction, also if the rest of the plan still "
                     "leads to the goal with the case as adapted");
+  command->add_flag("--no-notice", arguments->no_notice,
+                    "Adapt each case for itself, also if pushes give away that load or floor "
+                    "changed");
   command->add_flag("--no-break-off", arguments->no_break_off,
                     "Finish pushes whose object leaves its expected course");
   command->callback(

@@ -97,7 +97,7 @@ nlohmann::ordered_json replanCausesJson(const ReplanCounts& causes) {
 }
 
 nlohmann::ordered_json taskRunsJson(const std::vector<TaskRun>& runs) {
-  int successes = 0, pushes = 0, replans = 0, rejected = 0, collisions = 0;
+  int successes = 0, pushes = 0, replans = 0, rejected = 0, collisions = 0, noticed = 0;
   ReplanCounts causes;
   std::map<std::string, int> statuses;
   for (const TaskRun& run : runs) {
@@ -107,6 +107,7 @@ nlohmann::ordered_json taskRunsJson(const std::vector<TaskRun>& runs) {
     replans += progress.replans;
     rejected += progress.rejected_predictions;
     collisions += run.result.collisions;
+    noticed += run.result.noticed.empty() ? 0 : 1;
     ++statuses[toString(run.result.status)];
     for (const auto& [cause, count] : progress.replan_causes) {
       causes[cause] += count;
@@ -123,6 +124,7 @@ nlohmann::ordered_json taskRunsJson(const std::vector<TaskRun>& runs) {
           {"median_pushes_before_replan", quantile(rows.before_replan, 0.5)},
           {"median_pushes_with_a_plan", quantile(rows.all, 0.5)},
           {"rejected_predictions", shareJson(rejected, pushes)},
+          {"tasks_with_noticed_changes", noticed},
           {"sim_time_s", spreadJson(runs, [](const auto& r) { return r.sim_time_s; })},
           {"position_error_m", spreadJson(runs, [](const auto& r) { return r.position_error_m; })},
           {"collisions", collisions},

@@ -55,6 +55,10 @@ class CaseBase {
   /// @throws InputError if the file is missing, is no case base, is newer than this program, or is
   ///   corrupt. The file is left as it was.
   CaseBase(const std::filesystem::path& file, Access access);
+  /// A base that lives in memory only: these cases under their own ids.
+  /// @param floor  That their statistics were made with.
+  /// @throws InputError from validateCase; two of them have the same id.
+  CaseBase(const std::vector<Case>& cases, const CovarianceFloor& floor);
   ~CaseBase();
   CaseBase(CaseBase&&) noexcept;
   CaseBase& operator=(CaseBase&&) noexcept;
@@ -95,10 +99,6 @@ class CaseBase {
   /// Copies a case with all its observations for another context: adapt the copy and keep the
   /// original. Returns the copy's id. @throws InputError if there is no such case.
   std::int64_t copy(std::int64_t id, const PushContext& context);
-
-  /// The case to adapt in a context: this one if it was learnt there or the context is unknown,
-  /// else its copy for the context, made if missing. @throws InputError as copy.
-  std::int64_t forContext(std::int64_t id, const PushContext& context);
 
   /// Removes a case with its observations. @throws InputError if there is no such case.
   void remove(std::int64_t id);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,12 @@ struct UselessCase {
 /// Ascending by id.
 std::vector<UselessCase> uselessCases(const std::vector<Case>& cases, const PruneOptions& options);
 
-/// How far apart two contexts are [kg]; another floor is farther than any load. An unknown load
-/// counts as none, an unknown floor as any.
+/// How far apart two contexts are [kg]; another floor is farther than any load, and between them a
+/// change that was noticed. An unknown load counts as none, an unknown floor as any.
 double contextDistance(const PushContext& a, const PushContext& b);
+
+/// For each case the id of the one that it is a copy of, at whatever remove; its own if it is none.
+std::map<std::int64_t, std::int64_t> families(const std::vector<Case>& cases);
 
 /// One case of each family of copies (see CaseBase::copy): the one whose context is nearest, of
 /// equals the oldest. Ascending by id.

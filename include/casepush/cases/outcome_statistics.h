@@ -90,6 +90,12 @@ double adaptationWeight(const OutcomeStatistics& past, const Pose2& start_T_obje
 PredictionTest testPrediction(const OutcomeStatistics& past, const Pose2& start_T_object,
                               double alpha);
 
+/// Log density of the predictive distribution at an observation [nat, up to a constant]: Gaussian,
+/// with the uncertainty of the mean and a floor of what no case is sharper than,
+/// (0.015 m)^2 and (0.05 rad)^2. For comparing what two cases say about the same push.
+/// @pre past.effective_count > 0
+double logPredictive(const OutcomeStatistics& past, const Pose2& start_T_object);
+
 /// The plug-in test: squared Mahalanobis distance against chi-square with 3 degrees of freedom, as
 /// if the estimated covariance were the true one. For comparison: it raises too many false alarms.
 /// @see testPrediction for result, precondition and errors.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "casepush/cases/observed_push.h"
+#include "casepush/cases/adapting_cases.h"
 #include "casepush/execution/push_task.h"
 #include "casepush/lab/closed_loop.h"
 
@@ -57,11 +57,11 @@ struct PushRunOptions {
   LabOptions lab;
   PushPlannerOptions planner;
   PushTaskOptions task;
-  CovarianceFloor floor;
+  PushContext context;  ///< What is known of the object's load and the floor.
+  AdaptingOptions adapting;
   bool adapt = true;  ///< In memory only; the case base is not touched.
   bool clear_obstacles =
       false;  ///< Push objects with known cases out of the way if that is quicker.
-  AdaptationOptions adaptation;
   double time_limit_s = 1200.0;
 };
 
@@ -76,14 +76,15 @@ struct PushRunResult {
   double planning_s = 0.0;  ///< Wall time.
   int collisions = 0;
   std::vector<std::string> collision_names;
-  std::vector<PushReport> reports;
+  std::vector<PushReport> reports;   ///< Of the cases as given, also if copies were pushed.
+  std::vector<std::string> noticed;  ///< Changes of load or floor, in words; see AdaptingCases.
 };
 
 /// Runs one push task in the simulator from beginning to end.
 /// @param cases  Of the object, and of others that may be pushed out of the way.
 /// @param map  What the planner knows; by default a survey of the world.
 PushRunResult runPushTask(const Catalog& catalog, const PushProblem& problem,
-                          std::vector<Case> cases, std::shared_ptr<const Map> map,
+                          const std::vector<Case>& cases, std::shared_ptr<const Map> map,
                           const PushRunOptions& options,
                           const std::function<void(const PushTask&)>& watch = {});
 

@@ -25,9 +25,11 @@ const char* toString(CaseOrigin origin);
 struct PushContext {
   std::optional<double> load_kg;  ///< On top of the object; nothing if unknown.
   std::string floor;              ///< What the user calls the floor; empty if unknown.
+  /// 0: as told. n > 0: the n-th change that nobody told of, but pushes gave away (AdaptingCases).
+  int noticed = 0;
 
   friend bool operator==(const PushContext& a, const PushContext& b) {
-    return a.load_kg == b.load_kg && a.floor == b.floor;
+    return a.load_kg == b.load_kg && a.floor == b.floor && a.noticed == b.noticed;
   }
 };
 
@@ -74,13 +76,16 @@ void validateCase(const Case& push_case, const std::string& where);
 /// @throws InputError naming `where`: not finite, or x or y beyond 100 m.
 void validateCasePose(const Pose2& pose, const std::string& where);
 
-/// @throws InputError naming `where` and the field: a load outside of [0, 10000] kg, or a floor
-/// that
-///   is no text on one line.
+/// @throws InputError naming `where` and the field: a load outside of [0, 10000] kg, a floor that
+///   is no text on one line, or a negative number of a noticed change.
 void validateContext(const PushContext& context, const std::string& where);
 
 /// Heading of the robot's first motion in a case, in the frame of the resting object [rad].
 double pushDirection(const Case& push_case);
+
+/// The case with an id, or else the copy that took its place for another context; null if neither
+/// is there.
+const Case* findCase(const std::vector<Case>& cases, std::int64_t id);
 
 /// True if the case can be replayed by `robot` on `object` (names of models): what another robot's
 /// shape did to an object says little about this one's.

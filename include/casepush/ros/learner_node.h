@@ -69,7 +69,7 @@ class LearnerNode {
 
   void onOctomap(const Octomap& message);
   void onReport(const ExecutedPush& message);
-  void adaptBy(const PushReport& report);
+  std::string adaptBy(const PushReport& report);
   bool onExport(ExportCases::Request& request, ExportCases::Response& response);
   bool onImport(ImportCases::Request& request, ImportCases::Response& response);
   std::int64_t addDemonstrated(const Case& push_case);
@@ -81,7 +81,8 @@ class LearnerNode {
   LearnerNodeParameters parameters_;
   ros::NodeHandle handle_;
   std::mutex base_mutex_;
-  CaseBase base_;  ///< Guarded by base_mutex_.
+  CaseBase base_;  ///< Guarded by base_mutex_, with what adapts it.
+  AdaptingCases adapting_;
   ObjectWatch objects_;
 
   std::mutex state_mutex_;  ///< Guards the following.

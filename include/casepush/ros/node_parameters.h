@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "casepush/cases/outcome_statistics.h"
+#include "casepush/cases/adapting_cases.h"
 #include "casepush/execution/demonstration.h"
 #include "casepush/execution/exploration.h"
 #include "casepush/execution/push_task.h"
@@ -89,8 +89,7 @@ struct LearnerNodeParameters {
   std::string case_base = "cases.db";
   ExplorationOptions exploration;  ///< cases, practices and seed come with each goal.
   DemonstrationOptions demonstration;
-  CovarianceFloor floor;
-  AdaptationOptions adaptation;
+  AdaptingOptions adapting;
   PushContext context;  ///< That pushes are made in; cases are adapted and published for it.
   ResetMode reset = ResetMode::kAuto;
   std::optional<Pose2> home;  ///< Where the object starts each push; none: the freest place.

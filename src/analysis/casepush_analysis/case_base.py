@@ -29,6 +29,7 @@ class StoredCase:
 
     record: CaseRecord
     load_kg: Optional[float]
+    noticed: int
     tube: List[PoseGaussian]
     observations: List[Observation] = field(default_factory=list)
 
@@ -65,5 +66,6 @@ def _case(entry):
     record = CaseRecord(entry['id'], entry['object'], [_pose(p) for p in entry['robot_path']],
                         [_pose(p) for p in entry['object_path']], _gaussian(entry['outcome']),
                         entry['effective_count'], entry['observations'], entry['push_steps'])
-    return StoredCase(record, entry.get('load_kg'), [_gaussian(g) for g in entry['tube']],
+    return StoredCase(record, entry.get('load_kg'), entry.get('noticed', 0),
+                      [_gaussian(g) for g in entry['tube']],
                       [_observation(o) for o in entry['history']])

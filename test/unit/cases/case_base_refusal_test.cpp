@@ -128,7 +128,7 @@ TEST_F(CaseBaseRefusal, databaseOfAnotherProgram) {
 TEST_F(CaseBaseRefusal, newerSchema) {
   fillBase();
   runSql(file_, "PRAGMA user_version = 9;");
-  expectUntouchedRefusal(file_, "has schema version 9, this program knows up to 2");
+  expectUntouchedRefusal(file_, "has schema version 9, this program knows up to 3");
 }
 
 TEST_F(CaseBaseRefusal, truncatedFile) {

@@ -152,7 +152,7 @@ TEST_F(CaseBaseTest, removesACaseWithItsObservationsAndNeverReusesItsId) {
 TEST_F(CaseBaseTest, isAWriteAheadLoggedFileThatKnowsWhatItIs) {
   CaseBase base(file_, Access::kCreate);
   EXPECT_EQ(firstText("PRAGMA journal_mode"), "wal");
-  EXPECT_EQ(firstText("PRAGMA user_version"), "2");
+  EXPECT_EQ(firstText("PRAGMA user_version"), "3");
   EXPECT_EQ(firstText("PRAGMA application_id"), std::to_string(0x43507368));
 }
 

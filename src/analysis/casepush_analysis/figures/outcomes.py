@@ -62,6 +62,7 @@ def _finish(figure, stored, what, handles):
 
 def _title(axes, case):
     load = '' if case.load_kg is None else f', {case.load_kg:g} kg'
+    load += f', change {case.noticed}' if case.noticed else ''
     axes.set_title(f'case {case.record.case_id} (n = {case.record.observation_count}{load})',
                    fontsize=9)
     axes.tick_params(labelsize=7)

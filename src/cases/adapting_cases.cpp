@@ -1,0 +1,186 @@
+#include "casepush/cases/adapting_cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "context_view.h"
+
+namespace casepush {
+namespace {
+
+// Of the prediction test, when circumstances are asked whether they explain pushes.
+constexpr double kAlpha = 0.01;
+
+std::tuple<int, double, std::string> keyOf(const PushContext& context) {
+  return {context.noticed, context.load_kg.value_or(-1.0), context.floor};
+}
+
+std::string describe(const PushContext& context) {
+  if (context.noticed > 0) {
+    return "noticed change " + std::to_string(context.noticed);
+  }
+  std::string text = "as told: ";
+  text += context.load_kg ? std::to_string(static_cast<int>(std::lround(*context.load_kg))) + " kg"
+                          : "load unknown";
+  return context.floor.empty() ? text : text + ", floor " + context.floor;
+}
+
+OutcomeStatistics statistics(const Case& push_case) {
+  return {push_case.start_outcome, push_case.effective_count};
+}
+
+bool isSame(const Pose2& a, const Pose2& b) {
+  return a.x() == b.x() && a.y() == b.y() && a.yaw() == b.yaw();
+}
+
+}  // namespace
+
+AdaptingCases::AdaptingCases(CaseBase* base, PushContext told, const AdaptingOptions& options)
+    : base_(base), told_(std::move(told)), options_(options) {
+  options_.adaptation.validate();
+  options_.floor.validate();
+  options_.change.validate();
+}
+
+AdaptingCases::Circumstances& AdaptingCases::of(const std::string& object) {
+  const auto found = circumstances_.find(object);
+  if (found != circumstances_.end()) {
+    return found->second;
+  }
+  tell(object, told_);
+  return circumstances_.at(object);
+}
+
+void AdaptingCases::tell(const std::string& object, const PushContext& told) {
+  circumstances_.insert_or_assign(object,
+                                  Circumstances{told, ChangeDetector(options_.change), {}, {}});
+}
+
+PushContext AdaptingCases::context(const std::string& object) const {
+  const auto found = circumstances_.find(object);
+  return found == circumstances_.end() ? told_ : found->second.context;
+}
+
+std::vector<Case> AdaptingCases::cases(const std::string& object) const {
+  std::map<std::string, std::vector<Case>> by_object;
+  for (const Case& push_case : base_->cases(object)) {
+    by_object[push_case.object].push_back(push_case);
+  }
+  std::map<std::int64_t, Case> present;
+  for (const auto& [name, known] : by_object) {
+    const ContextView view(known, context(name));
+    for (const Case& push_case : inContext(known, context(name))) {
+      present[push_case.id] = view.expected(push_case);
+    }
+  }
+  std::vector<Case> result;
+  for (auto& [id, push_case] : present) {
+    result.push_back(std::move(push_case));
+  }
+  return result;
+}
+
+std::string AdaptingCases::learnFrom(const PushReport& report) {
+  const std::string object = base_->get(report.case_id).object;
+  Circumstances& now = of(object);
+  const ObservedPush push = observedPush(report, now.context);
+  if (options_.notice) {
+    compare(base_->cases(object), report.case_id, push.start_T_object, &now);
+  }
+  const auto [id, is_new] = memberFor(report.case_id, now.context);
+  base_->adapt(id, push, report.test.p_value, options_.adaptation, options_.floor);
+  if (!options_.notice) {
+    return {};
+  }
+  now.recent.push_back({id, push});
+  is_new ? now.detector.addNothing() : now.detector.add(report.test.p_value);
+  return judge(object, &now);
+}
+
+/// What circumstances met before say of a push, compared with the present ones. A conjecture says
+/// too little for that: whatever is known better would win.
+void AdaptingCases::compare(const std::vector<Case>& known, std::int64_t id,
+                            const Pose2& start_T_object, Circumstances* now) const {
+  const ContextView present(known, now->context);
+  for (const Case& push_case : known) {
+    const bool is_present = now->context == PushContext{}
+                                ? push_case.context.noticed == 0
+                                : contextDistance(push_case.context, now->context) == 0.0;
+    if (!is_present) {
+      now->others.try_emplace(keyOf(push_case.context), push_case.context,
+                              ChangeDetector(options_.change));
+    }
+  }
+  const Case* expected = now->context == PushContext{} ? &present.nearest(id) : present.member(id);
+  for (auto& [key, other] : now->others) {
+    const Case* member = ContextView(known, other.first).member(id);
+    if (member == nullptr || expected == nullptr) {
+      other.second.addNothing();
+    } else {
+      other.second.addLogRatio(logPredictive(statistics(*member), start_T_object) -
+                               logPredictive(statistics(*expected), start_T_object));
+    }
+  }
+}
+
+std::string AdaptingCases::judge(const std::string& object, Circumstances* now) {
+  for (const auto& [key, other] : now->others) {
+    if (other.second.isRaised()) {
+      return change(object, other.first, other.second.pushesSinceChange(), now);
+    }
+  }
+  if (now->detector.isRaised()) {
+    PushContext changed = now->context;
+    for (const Case& push_case : base_->cases(object)) {
+      changed.noticed = std::max(changed.noticed, push_case.context.noticed);
+    }
+    ++changed.noticed;
+    return change(object, changed, now->detector.pushesSinceChange(), now);
+  }
+  return {};
+}
+
+/// The case of a family that is to learn in a context, and whether it was made for that now.
+std::pair<std::int64_t, bool> AdaptingCases::memberFor(std::int64_t id,
+                                                       const PushContext& context) {
+  const Case original = base_->get(id);
+  if (context == PushContext{}) return {id, false};
+  const ContextView view(base_->cases(original.object), context);
+  if (const Case* member = view.member(id)) return {member->id, false};
+  Case copy = view.expected(original);
+  copy.source_id = id;
+  copy.observation_count = 0;  // None in this context.
+  copy.context = context;
+  return {base_->add(copy, std::nullopt, options_.floor), true};
+}
+
+// Another program may have written to the base: only the very observations are taken back.
+void AdaptingCases::takeBack(const std::vector<Testimony>& pushes) {
+  for (auto it = pushes.rbegin(); it != pushes.rend(); ++it) {
+    const std::vector<Pose2> observations = base_->observations(it->case_id);
+    if (!observations.empty() && isSame(observations.back(), it->push.start_T_object)) {
+      base_->undo(it->case_id);
+    }
+  }
+}
+
+std::string AdaptingCases::change(const std::string& object, PushContext context, int pushes,
+                                  Circumstances* now) {
+  const std::vector<Testimony> since(now->recent.end() - pushes, now->recent.end());
+  takeBack(since);
+  const PushContext before = now->context;
+  tell(object, context);
+  for (Testimony testimony : since) {
+    const std::int64_t id = memberFor(testimony.case_id, context).first;
+    testimony.push.context = context;
+    const PredictionTest test =
+        testPrediction(statistics(base_->get(id)), testimony.push.start_T_object, kAlpha);
+    base_->adapt(id, testimony.push, test.p_value, options_.adaptation, options_.floor);
+  }
+  return object + " no longer moves as its cases say (" + describe(before) +
+         "): another load or floor? From its last " + std::to_string(pushes) +
+         " pushes on it is taken for " + describe(context) + "; what was known before is kept";
+}
+
+}  // namespace casepush

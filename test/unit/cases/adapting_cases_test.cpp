@@ -1,0 +1,125 @@
+#include "casepush/cases/adapting_cases.h"
+
+#include "case_fixtures.h"
+
+namespace casepush {
+namespace {
+
+/// Cases of a chair that each push it 0.5 m one of several ways, known by 20 practices.
+std::vector<Case> knownCases() {
+  std::vector<Case> cases;
+  for (int i = 0; i < 4; ++i) {
+    Case push_case = recordedCase(static_cast<std::uint64_t>(i + 1));
+    push_case.id = 10 + i;
+    push_case.start_outcome = {Pose2(0.5 * std::cos(i), 0.5 * std::sin(i), 0.1 * i),
+                               Eigen::Vector3d(4e-4, 4e-4, 1e-3).asDiagonal()};
+    push_case.effective_count = 20.0;
+    push_case.observation_count = 20;
+    cases.push_back(push_case);
+  }
+  return cases;
+}
+
+class AdaptingCasesTest : public ::testing::Test {
+ protected:
+  /// Pushes case `number` (0 to 3) of the present ones; it ends at `share` of the way it used to.
+  std::string push(int number, double share) {
+    const std::vector<Case> cases = adapting_.cases();
+    const Case predicted = *findCase(cases, known_[number].id);
+    const Case original = known_[number];
+    const Pose2& mean = original.start_outcome.mean;
+    PushReport report;
+    report.object_id = "chair_1";
+    report.case_id = predicted.id;
+    report.outcome = PushOutcome::kDone;
+    report.map_T_end = Pose2(share * mean.x(), share * mean.y(), share * mean.yaw()) *
+                       randomPose(random_, 0.02, 0.03);
+    report.recorded = predicted;
+    report.recorded.start_outcome.mean = report.map_T_end;
+    report.recorded.steps.back().start_T_object = report.map_T_end;
+    report.test = testPrediction({predicted.start_outcome, predicted.effective_count},
+                                 observedPush(report).start_T_object, 0.01);
+    return adapting_.learnFrom(report);
+  }
+  /// Pushes one case after the other until a change is noticed.
+  std::string pushUntilNoticed(double share, int most) {
+    std::string text;
+    for (int i = 0; i < most && text.empty(); ++i) text = push(i % 4, share);
+    return text;
+  }
+  void expectOriginals() {
+    for (const Case& original : known_) {
+      const Case now = base_.get(original.id);
+      expectSamePose(now.start_outcome.mean, original.start_outcome.mean);
+      EXPECT_EQ(now.effective_count, original.effective_count);
+    }
+  }
+
+  std::vector<Case> known_ = knownCases();
+  CaseBase base_{known_, {}};
+  AdaptingCases adapting_{&base_, {}};
+  Random random_{3};
+};
+
+TEST_F(AdaptingCasesTest, adaptsTheCasesThemselvesWhileNothingChanges) {
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(push(i % 4, 1.0), "");
+  EXPECT_EQ(base_.count(), 4);
+  EXPECT_EQ(base_.get(10).observation_count, 30);
+}
+
+TEST_F(AdaptingCasesTest, learnsCopiesAfterAChangeAndKeepsTheOriginals) {
+  const std::string text = pushUntilNoticed(0.5, 4);
+  EXPECT_NE(text.find("noticed change 1"), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  EXPECT_EQ(adapting_.context("chair").noticed, 1);
+  expectOriginals();
+  for (int i = 0; i < 20; ++i) push(i % 4, 0.5);
+  expectOriginals();
+  EXPECT_EQ(base_.count(), 8);
+  for (const Case& push_case : adapting_.cases("chair")) {
+    EXPECT_EQ(push_case.context.noticed, 1);
+    const Pose2& before = base_.get(push_case.source_id).start_outcome.mean;
+    EXPECT_NEAR(push_case.start_outcome.mean.position().norm(), 0.5 * before.position().norm(),
+                0.04);
+  }
+}
+
+TEST_F(AdaptingCasesTest, recognisesCircumstancesMetBefore) {
+  pushUntilNoticed(0.5, 4);
+  for (int i = 0; i < 12; ++i) push(i % 4, 0.5);
+  EXPECT_NE(pushUntilNoticed(1.0, 12), "");
+  EXPECT_EQ(adapting_.context("chair").noticed, 0);
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(push(i % 4, 1.0), "");
+  EXPECT_NE(pushUntilNoticed(0.5, 12), "");
+  EXPECT_EQ(adapting_.context("chair").noticed, 1);
+  EXPECT_EQ(base_.count(), 8);
+}
+
+TEST_F(AdaptingCasesTest, numbersFurtherChanges) {
+  pushUntilNoticed(0.5, 4);
+  for (int i = 0; i < 60; ++i) push(i % 4, 0.5);
+  EXPECT_NE(pushUntilNoticed(0.1, 12), "");
+  EXPECT_EQ(adapting_.context("chair").noticed, 2);
+}
+
+TEST_F(AdaptingCasesTest, forgetsWhatWasNoticedWhenTold) {
+  pushUntilNoticed(0.5, 4);
+  PushContext told;
+  told.load_kg = 15.0;
+  adapting_.tell("chair", told);
+  EXPECT_EQ(adapting_.context("chair"), told);
+  push(0, 0.5);
+  EXPECT_EQ(adapting_.cases().size(), 4u);
+  EXPECT_EQ(base_.cases().back().context, told);
+}
+
+TEST_F(AdaptingCasesTest, noticesNothingUnlessWanted) {
+  AdaptingOptions options;
+  options.notice = false;
+  adapting_ = AdaptingCases(&base_, {}, options);
+  EXPECT_EQ(pushUntilNoticed(0.5, 12), "");
+  EXPECT_EQ(base_.count(), 4);
+}
+
+}  // namespace
+}  // namespace casepush
