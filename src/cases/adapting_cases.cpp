@@ -30,6 +30,11 @@ OutcomeStatistics statistics(const Case& push_case) {
   return {push_case.start_outcome, push_case.effective_count};
 }
 
+/// Whether a case was learnt in the present circumstances; in unknown ones all were that were told.
+bool isIn(const PushContext& context, const PushContext& present) {
+  return present == PushContext{} ? context.noticed == 0 : contextDistance(context, present) == 0.0;
+}
+
 bool isSame(const Pose2& a, const Pose2& b) {
   return a.x() == b.x() && a.y() == b.y() && a.yaw() == b.yaw();
 }
@@ -62,6 +67,14 @@ PushContext AdaptingCases::context(const std::string& object) const {
   return found == circumstances_.end() ? told_ : found->second.context;
 }
 
+std::map<std::string, int> AdaptingCases::noticed() const {
+  std::map<std::string, int> changes;
+  for (const auto& [object, now] : circumstances_) {
+    if (now.context.noticed > 0) changes[object] = now.context.noticed;
+  }
+  return changes;
+}
+
 std::vector<Case> AdaptingCases::cases(const std::string& object) const {
   std::map<std::string, std::vector<Case>> by_object;
   for (const Case& push_case : base_->cases(object)) {
@@ -69,7 +82,7 @@ std::vector<Case> AdaptingCases::cases(const std::string& object) const {
   }
   std::map<std::int64_t, Case> present;
   for (const auto& [name, known] : by_object) {
-    const ContextView view(known, context(name));
+    ContextView view(known, context(name));
     for (const Case& push_case : inContext(known, context(name))) {
       present[push_case.id] = view.expected(push_case);
     }
@@ -102,33 +115,38 @@ std::string AdaptingCases::learnFrom(const PushReport& report) {
 /// too little for that: whatever is known better would win.
 void AdaptingCases::compare(const std::vector<Case>& known, std::int64_t id,
                             const Pose2& start_T_object, Circumstances* now) const {
-  const ContextView present(known, now->context);
+  const std::map<std::int64_t, std::int64_t> family_of = families(known);
+  std::map<ContextKey, const Case*> family;
+  const Case* expected = nullptr;
   for (const Case& push_case : known) {
-    const bool is_present = now->context == PushContext{}
-                                ? push_case.context.noticed == 0
-                                : contextDistance(push_case.context, now->context) == 0.0;
-    if (!is_present) {
-      now->others.try_emplace(keyOf(push_case.context), push_case.context,
-                              ChangeDetector(options_.change));
+    const bool is_present = isIn(push_case.context, now->context);
+    const bool is_of_family = family_of.at(push_case.id) == family_of.at(id);
+    if (is_present && is_of_family) {
+      expected = &push_case;
+    } else if (!is_present) {
+      const ContextKey key = keyOf(push_case.context);
+      now->others.try_emplace(key, push_case.context, ChangeDetector(options_.change));
+      if (is_of_family) family[key] = &push_case;
     }
   }
-  const Case* expected = now->context == PushContext{} ? &present.nearest(id) : present.member(id);
   for (auto& [key, other] : now->others) {
-    const Case* member = ContextView(known, other.first).member(id);
-    if (member == nullptr || expected == nullptr) {
+    const auto member = family.find(key);
+    if (member == family.end() || expected == nullptr) {
       other.second.addNothing();
     } else {
-      other.second.addLogRatio(logPredictive(statistics(*member), start_T_object) -
+      other.second.addLogRatio(logPredictive(statistics(*member->second), start_T_object) -
                                logPredictive(statistics(*expected), start_T_object));
     }
   }
 }
 
 std::string AdaptingCases::judge(const std::string& object, Circumstances* now) {
+  int suspicious = now->detector.pushesSinceChange();
   for (const auto& [key, other] : now->others) {
     if (other.second.isRaised()) {
       return change(object, other.first, other.second.pushesSinceChange(), now);
     }
+    suspicious = std::max(suspicious, other.second.pushesSinceChange());
   }
   if (now->detector.isRaised()) {
     PushContext changed = now->context;
@@ -138,6 +156,7 @@ std::string AdaptingCases::judge(const std::string& object, Circumstances* now) 
     ++changed.noticed;
     return change(object, changed, now->detector.pushesSinceChange(), now);
   }
+  now->recent.erase(now->recent.begin(), now->recent.end() - suspicious);
   return {};
 }
 
@@ -146,7 +165,7 @@ std::pair<std::int64_t, bool> AdaptingCases::memberFor(std::int64_t id,
                                                        const PushContext& context) {
   const Case original = base_->get(id);
   if (context == PushContext{}) return {id, false};
-  const ContextView view(base_->cases(original.object), context);
+  ContextView view(base_->cases(original.object), context);
   if (const Case* member = view.member(id)) return {member->id, false};
   Case copy = view.expected(original);
   copy.source_id = id;

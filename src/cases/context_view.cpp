@@ -18,21 +18,12 @@ const Case* ContextView::member(std::int64_t id) const {
   return found == members_.end() ? nullptr : found->second;
 }
 
-const Case& ContextView::nearest(std::int64_t id) const {
-  const Case* best = nullptr;
-  for (const Case& push_case : cases_) {
-    if (family_of_.at(push_case.id) == family_of_.at(id) &&
-        (best == nullptr ||
-         contextDistance(push_case.context, context_) < contextDistance(best->context, context_))) {
-      best = &push_case;
-    }
-  }
-  return *best;
-}
-
-Case ContextView::expected(const Case& push_case) const {
+Case ContextView::expected(const Case& push_case) {
   if (context_ == PushContext{} || contextDistance(push_case.context, context_) == 0.0) {
     return push_case;
+  }
+  for (const auto& [from, shift] : shifts_) {
+    if (from == push_case.context) return shift.conjecture(push_case);
   }
   ContextShift shift;
   for (const Case& before : cases_) {
@@ -41,6 +32,7 @@ Case ContextView::expected(const Case& push_case) const {
       shift.add(before, *now);
     }
   }
+  shifts_.emplace_back(push_case.context, shift);
   return shift.conjecture(push_case);
 }
 

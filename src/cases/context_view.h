@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "casepush/cases/case_upkeep.h"
@@ -17,18 +18,16 @@ class ContextView {
   /// The case of an id's family that was learnt in the context; null if there is none.
   const Case* member(std::int64_t id) const;
 
-  /// The case of an id's family whose context is nearest. @pre there is such an id
-  const Case& nearest(std::int64_t id) const;
-
   /// What is expected of a case in the context: the case itself if it was learnt there or the
   /// context is unknown, else a conjecture from the others that are known in both.
-  Case expected(const Case& push_case) const;
+  Case expected(const Case& push_case);
 
  private:
   std::vector<Case> cases_;
   PushContext context_;
   std::map<std::int64_t, std::int64_t> family_of_;
-  std::map<std::int64_t, const Case*> members_;  ///< By family.
+  std::map<std::int64_t, const Case*> members_;               ///< By family.
+  std::vector<std::pair<PushContext, ContextShift>> shifts_;  ///< From where, as far as asked for.
 };
 
 }  // namespace casepush

@@ -112,13 +112,9 @@ void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper&
   status.add("case base", parameters_.case_base);
   const std::lock_guard<std::mutex> lock(base_mutex_);
   status.add("cases", base_.count());
-  for (const Case& push_case : adapting_.cases()) {
-    if (push_case.context.noticed > 0) {
-      status.mergeSummaryf(diagnostic_msgs::DiagnosticStatus::OK,
-                           "%s: noticed change %d of load or floor", push_case.object.c_str(),
-                           push_case.context.noticed);
-      break;
-    }
+  for (const auto& [object, number] : adapting_.noticed()) {
+    status.mergeSummaryf(diagnostic_msgs::DiagnosticStatus::OK,
+                         "%s: noticed change %d of load or floor", object.c_str(), number);
   }
 }
 

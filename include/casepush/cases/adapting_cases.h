@@ -51,6 +51,9 @@ class AdaptingCases {
   /// Present circumstances of an object, by the name of its model.
   PushContext context(const std::string& object) const;
 
+  /// Objects in circumstances that nobody told of, with PushContext::noticed.
+  std::map<std::string, int> noticed() const;
+
  private:
   using ContextKey = std::tuple<int, double, std::string>;
   struct Testimony {
@@ -61,7 +64,7 @@ class AdaptingCases {
     PushContext context;
     ChangeDetector detector;
     std::map<ContextKey, std::pair<PushContext, ChangeDetector>> others;  ///< Met before.
-    std::vector<Testimony> recent;  ///< Since the circumstances were last told or noticed.
+    std::vector<Testimony> recent;  ///< The last ones, which may be from after a change.
   };
 
   Circumstances& of(const std::string& object);
