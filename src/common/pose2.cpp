@@ -10,6 +10,7 @@ constexpr double kSmallAngle = 1e-6;
 }  // namespace
 
 double wrapAngle(double angle_rad) {
+  if (angle_rad > -M_PI && angle_rad <= M_PI) return angle_rad;  // Mostly.
   const double wrapped = std::remainder(angle_rad, 2.0 * M_PI);
   return wrapped <= -M_PI ? wrapped + 2.0 * M_PI : wrapped;
 }

@@ -17,11 +17,14 @@ namespace casepush {
 /// All that a search needs of the cases of one object, whatever the request.
 struct CaseSet {
   CaseSet(std::vector<PreparedCase> prepared, const PushTimeOptions& options)
-      : cases(std::move(prepared)), time(cases, options), chains(cases, time) {}
+      : cases(std::move(prepared)), time(cases, options), chains(cases, time) {
+    for (const PreparedCase& push_case : cases) outcomes.push_back(push_case.start_outcome.mean);
+  }
 
   const std::vector<PreparedCase> cases;
   const PushTime time;
   const CaseChains chains;
+  std::vector<Pose2> outcomes;  ///< Mean outcome of each case, side by side.
 };
 
 /// Keeps the sets of the last searches: most plans use the very same cases. Thread-safe.

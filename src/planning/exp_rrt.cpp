@@ -125,7 +125,7 @@ bool ExpRrt::start() {
     if (is_goal) {
       solutions_.push_back(id);
       best_cost_s_ = 0.0;
-    } else if (id >= 0) {
+    } else if (id >= 0 && options_.similarity == Similarity::kMetric) {
       noteBestEdge(id);
       connect(id);
     }

@@ -18,6 +18,7 @@
 #include "casepush/planning/similarity.h"
 #include "chance_constraint.h"
 #include "goal_guide.h"
+#include "push_start.h"
 #include "push_tree.h"
 
 namespace casepush {
@@ -66,9 +67,9 @@ using CanApproach = std::function<bool(const Pose2& map_T_object, const Prepared
 /// An OMPL planner over SE2StateSpace with a PushGoal. Departures from the printed algorithm, in
 /// both modes: a (node, case) pair is tried once, an exhausted node leaves the search, and so does
 /// a node to whose push the robot cannot get, which is asked before anything is pushed on from it.
-/// With Similarity::kMetric also: of two nodes at nearly the same pose only the cheaper grows; for
-/// a random sample cases are tried in order of the distance of their outcome until the first safe
-/// one; for the goal the pair of node and case is taken that promises the shortest time over the
+/// With Similarity::kMetric also: of two nodes at nearly the same pose only the cheaper grows, and
+/// no push is checked that would end where a cheaper one has; for a random sample cases are tried in
+/// order of the distance of their outcome until the first safe one, at most six; for the goal the pair of node and case is taken that promises the shortest time over the
 /// whole way (the guide says what is left), and chains of up to three cases that end in the goal
 /// region are tried from every new node. Once a solution is known, what cannot become cheaper is
 /// left out, and random samples extend the cheapest node within a random radius. With
@@ -140,10 +141,12 @@ class ExpRrt : public ompl::base::Planner {
   int selectCheapestNear(const Pose2& target);
   int selectMostSimilar(const Pose2& target) const;
   void noteBestEdge(int node);
+  void weighEdges(int node, const PushStart& start);
   void noteAllEdges();
   int chooseCase(int node, const Pose2& target);
   int chooseCaseChecked(int node, const Pose2& target);
   bool isReachable(int node);
+  bool isPointless(int node, int push, const PushStart& start);
   bool isSafe(int node, int push);
   bool isSafeByChance(int node, int push);
   Growth extend(int node, int push, int* added = nullptr);
@@ -154,6 +157,7 @@ class ExpRrt : public ompl::base::Planner {
   double chainCost(int node, const CaseChain& chain) const;
   double remaining(const Pose2& pose) const;
   double expected(const Eigen::Vector2d& position_m, double yaw_rad) const;
+  bool isInGoal(const Pose2& pose) const;
   bool isHopeless(double cost_s, const Pose2& pose) const;
   void addSolutionPath(int node);
   void freeDataStates() const;
@@ -180,6 +184,7 @@ class ExpRrt : public ompl::base::Planner {
   std::priority_queue<Edge, std::vector<Edge>, std::greater<>> edges_;
   std::vector<int> nearby_;                    // scratch
   std::vector<std::pair<double, int>> order_;  // scratch
+  std::vector<std::pair<double, int>> keys_;   // scratch
   std::vector<const CaseChain*> endings_;      // scratch
   mutable std::vector<ompl::base::State*> data_states_;
 };

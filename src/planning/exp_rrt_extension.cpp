@@ -10,6 +10,7 @@ namespace casepush {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMostTests = 6;       // Of a node's cases for one random sample.
 constexpr std::size_t kCheck = 64;  // A push takes so many times as long to check as to look at.
 
 }  // namespace
@@ -31,7 +32,13 @@ double ExpRrt::remaining(const Pose2& pose) const {
 }
 
 bool ExpRrt::isHopeless(double cost_s, const Pose2& pose) const {
-  return cost_s + remaining(pose) >= best_cost_s_;
+  return isImproving() && cost_s + remaining(pose) >= best_cost_s_;
+}
+
+bool ExpRrt::isInGoal(const Pose2& pose) const {
+  const double reach_m = 1.001 * goal_->tolerance().position_m;
+  return (pose.position() - goal_->pose().position()).squaredNorm() <= reach_m * reach_m &&
+         goal_->tolerance().isMet(goal_->pose(), pose);
 }
 
 // What is left by the guide, in the metric of the tree.
@@ -40,40 +47,52 @@ double ExpRrt::expected(const Eigen::Vector2d& position_m, double yaw_rad) const
   const double way_m =
       guide_ != nullptr ? guide_->at(position_m) : (position_m - goal.position()).norm();
   const double turn_m = options_.gyration_radius_m * wrapAngle(yaw_rad - goal.yaw());
-  return set_->time.lowerBound(std::hypot(way_m, turn_m) - goal_->tolerance().position_m);
+  return set_->time.lowerBound(std::sqrt(way_m * way_m + turn_m * turn_m) -
+                               goal_->tolerance().position_m);
+}
+
+// The untried pushes from a node that can become cheaper, with the time over the whole way.
+void ExpRrt::weighEdges(int node, const PushStart& start) {
+  const PushNode& from = tree_.node(node);
+  const double greed = isImproving() ? options_.improving_greed : options_.greed;
+  keys_.clear();
+  tree_.visitUntried(node, [&](int push) {
+    const Pose2& moved = set_->outcomes[push];
+    const Eigen::Vector2d end = start.positionOf(moved);
+    const double cost_s = from.cost_s + pushCost(node, push);
+    if (isImproving()) {
+      const double straight_m = (end - goal_->pose().position()).norm();
+      const double least_s = set_->time.lowerBound(straight_m - goal_->tolerance().position_m);
+      if (cost_s + least_s >= best_cost_s_) return;
+    }
+    keys_.emplace_back(cost_s + greed * expected(end, from.map_T_object.yaw() + moved.yaw()), push);
+  });
 }
 
 void ExpRrt::noteBestEdge(int node) {
-  const PushNode& from = tree_.node(node);
-  const double cosine = std::cos(from.map_T_object.yaw());
-  const double sine = std::sin(from.map_T_object.yaw());
-  const double greed = isImproving() ? options_.improving_greed : options_.greed;
-  Edge best{kInfinity, node, -1};
-  for (int push = 0; push < static_cast<int>(set_->cases.size()); ++push) {
-    if (tree_.isTried(node, push)) {
-      continue;
+  const PushStart start(tree_.node(node).map_T_object);
+  weighEdges(node, start);
+  while (!keys_.empty()) {
+    const auto best = std::min_element(keys_.begin(), keys_.end());
+    if (!isPointless(node, best->second, start)) {
+      edges_.push({best->first, node, best->second});
+      return;
     }
-    const Pose2& moved = set_->cases[push].start_outcome.mean;
-    const Eigen::Vector2d end(from.map_T_object.x() + cosine * moved.x() - sine * moved.y(),
-                              from.map_T_object.y() + sine * moved.x() + cosine * moved.y());
-    const double cost_s = from.cost_s + pushCost(node, push);
-    const double straight_m = (end - goal_->pose().position()).norm();
-    const double least_s =
-        set_->time.lowerBound(straight_m - goal_->tolerance().position_m) + cost_s;
-    if (least_s >= best_cost_s_) {
-      continue;
-    }
-    const double key_s = cost_s + greed * expected(end, from.map_T_object.yaw() + moved.yaw());
-    if (key_s < best.key_s) {
-      best.key_s = key_s;
-      best.push = push;
-    }
+    *best = keys_.back();
+    keys_.pop_back();
   }
-  if (best.push >= 0) {
-    edges_.push(best);
-  } else {
-    tree_.close(node);  // Nothing that is left can become cheaper.
-  }
+  tree_.close(node);  // Nothing that is left can become cheaper.
+}
+
+// A push to where the object gets in less time, or that cannot be part of a quicker plan, counts as
+// tried. That is found out much faster than collisions.
+bool ExpRrt::isPointless(int node, int push, const PushStart& start) {
+  const Pose2 end = start * set_->outcomes[push];
+  const double cost_s = tree_.node(node).cost_s + pushCost(node, push);
+  const bool is_pointless =
+      isHopeless(cost_s, end) || (tree_.isCovered(end, cost_s) && !isInGoal(end));
+  if (is_pointless) tree_.markPostponed(node, push);
+  return is_pointless;
 }
 
 // The most promising pair of node and case that is safe.
@@ -88,11 +107,14 @@ std::optional<ExpRrt::Edge> ExpRrt::chooseEdge() {
       noteBestEdge(edge.node);
       continue;
     }
-    if (!isReachable(edge.node)) {
-      continue;
-    }
-    if (isSafe(edge.node, edge.push)) {
-      return edge;
+    const PushStart start(tree_.node(edge.node).map_T_object);
+    if (!isPointless(edge.node, edge.push, start)) {
+      if (!isReachable(edge.node)) {
+        continue;
+      }
+      if (isSafe(edge.node, edge.push)) {
+        return edge;
+      }
     }
     if (tree_.isOpen(edge.node)) {
       noteBestEdge(edge.node);
@@ -117,16 +139,8 @@ bool ExpRrt::isReachable(int node) {
   return true;
 }
 
-// What comes too late anyway is not worth an estimate of its risk.
 bool ExpRrt::isSafeByChance(int node, int push) {
-  const PushNode& from = tree_.node(node);
-  const Pose2 end = from.map_T_object * set_->cases[push].start_outcome.mean;
-  const double cost_s = from.cost_s + pushCost(node, push);
-  const bool is_goal = goal_->tolerance().isMet(goal_->pose(), end);
-  if (isHopeless(cost_s, end) || (!is_goal && tree_.isCovered(end, cost_s))) {
-    tree_.markPostponed(node, push);
-    return false;
-  }
+  const Pose2 end = tree_.node(node).map_T_object * set_->outcomes[push];
   const auto node_at = [this](int id) -> const PushNode& { return tree_.node(id); };
   const std::optional<PushChance> chance = options_.chance->judge(node_at, node, push, end);
   if (!chance) {
@@ -151,22 +165,23 @@ bool ExpRrt::isSafe(int node, int push) {
 
 // Alg. 1, EXTEND: the same answer as checking all cases first, with a fraction of the checks.
 int ExpRrt::chooseCase(int node, const Pose2& target) {
-  const Pose2& pose = tree_.node(node).map_T_object;
+  const PushStart start(tree_.node(node).map_T_object);
   order_.clear();
-  for (int push = 0; push < static_cast<int>(set_->cases.size()); ++push) {
-    if (tree_.isTried(node, push)) {
-      continue;
-    }
-    const Pose2 outcome = pose * set_->cases[push].start_outcome.mean;
+  tree_.visitUntried(node, [&](int push) {
+    const Pose2 outcome = start * set_->outcomes[push];
     const double d2 = squaredPoseDistance(outcome, target, options_.gyration_radius_m);
     order_.emplace_back(d2, push);
-  }
-  // A heap: mostly one of the first few is safe.
+  });
+  // A heap: mostly one of the first few is safe. Where none is, another sample goes on.
+  int tests = 0;
   std::make_heap(order_.begin(), order_.end(), std::greater<>());
-  while (!order_.empty() && !mustStop(kCheck)) {
+  while (!order_.empty() && tests < kMostTests && !mustStop(kCheck)) {
     const int push = order_.front().second;
-    if (isSafe(node, push)) {
-      return push;
+    if (!isPointless(node, push, start)) {
+      if (isSafe(node, push)) {
+        return push;
+      }
+      ++tests;
     }
     std::pop_heap(order_.begin(), order_.end(), std::greater<>());
     order_.pop_back();
@@ -186,7 +201,7 @@ int ExpRrt::chooseCaseChecked(int node, const Pose2& target) {
     if (tree_.isTried(node, push) || !isSafe(node, push)) {
       continue;
     }
-    const Pose2 outcome = pose * set_->cases[push].start_outcome.mean;
+    const Pose2 outcome = pose * set_->outcomes[push];
     const std::pair<double, double> key{paperSimilarity(outcome, target, reach_m),
                                         -distance(outcome, target)};
     if (best < 0 || key > best_key) {
@@ -216,7 +231,7 @@ double ExpRrt::chainCost(int node, const CaseChain& chain) const {
 // to those before it.
 ExpRrt::Growth ExpRrt::extend(int node, int push, int* added) {
   PushNode child;
-  child.map_T_object = tree_.node(node).map_T_object * set_->cases[push].start_outcome.mean;
+  child.map_T_object = tree_.node(node).map_T_object * set_->outcomes[push];
   child.parent = node;
   child.push = push;
   child.cost_s = tree_.node(node).cost_s + pushCost(node, push);
@@ -224,7 +239,7 @@ ExpRrt::Growth ExpRrt::extend(int node, int push, int* added) {
     child.cost_s += last_chance_.recovery_s;
     child.risk = tree_.node(node).risk + last_chance_.risk;
   }
-  const bool is_goal = goal_->tolerance().isMet(goal_->pose(), child.map_T_object);
+  const bool is_goal = isInGoal(child.map_T_object);
   const int id = isHopeless(child.cost_s, child.map_T_object) ? -1 : tree_.add(child, !is_goal);
   if (id < 0) {
     tree_.markPostponed(node, push);
@@ -233,7 +248,9 @@ ExpRrt::Growth ExpRrt::extend(int node, int push, int* added) {
   is_approached_.resize(tree_.size(), false);
   tree_.markTried(node, push);
   if (!is_goal) {
-    noteBestEdge(id);
+    if (options_.similarity == Similarity::kMetric) {
+      noteBestEdge(id);
+    }
     if (added != nullptr) {
       *added = id;
     }
@@ -247,7 +264,7 @@ ExpRrt::Growth ExpRrt::addSolution(int node) {
   const auto cheaper = [this](int a, int b) { return tree_.node(a).cost_s < tree_.node(b).cost_s; };
   solutions_.insert(std::upper_bound(solutions_.begin(), solutions_.end(), node, cheaper), node);
   best_cost_s_ = tree_.node(solutions_.front()).cost_s;
-  if (is_first) {
+  if (is_first && options_.similarity == Similarity::kMetric) {
     noteAllEdges();
   }
   return Growth::kSolution;
@@ -304,7 +321,8 @@ ExpRrt::Growth ExpRrt::follow(int node, const CaseChain& chain) {
   int at = node;
   for (int i = 0; i < chain.count; ++i) {
     const int push = chain.pushes[i];
-    if (tree_.isTried(at, push) || !isSafe(at, push)) {
+    const PushStart start(tree_.node(at).map_T_object);
+    if (tree_.isTried(at, push) || isPointless(at, push, start) || !isSafe(at, push)) {
       break;
     }
     ++extension_count_;

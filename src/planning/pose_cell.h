@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "casepush/common/pose2.h"
@@ -9,9 +8,10 @@ namespace casepush {
 
 /// Number of the cell of SE(2) that a pose lies in: `cell_m` wide in x, y and in yaw times `rho_m`.
 inline std::uint64_t poseCell(const Pose2& pose, double cell_m, double rho_m) {
-  constexpr std::int64_t kOffset = 1 << 20;  // Maps indices of either sign into 21 bits.
+  // Maps indices of either sign into 21 bits; what is positive is rounded down by conversion.
+  constexpr double kOffset = (1 << 20) + 0.5;
   const auto index = [](double value) {
-    return static_cast<std::uint64_t>(std::llround(value) + kOffset) & 0x1fffff;
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(value + kOffset)) & 0x1fffff;
   };
   return index(pose.x() / cell_m) << 42 | index(pose.y() / cell_m) << 21 |
          index(pose.yaw() * rho_m / cell_m);

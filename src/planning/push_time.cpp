@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace casepush {
 namespace {
@@ -38,11 +37,6 @@ PushTime::PushTime(const std::vector<PreparedCase>& cases, const PushTimeOptions
   }
 }
 
-double PushTime::after(int previous, int next) const {
-  if (count_ > kTabled) return drive(end_[previous], begin_[next]) + duration_s_[next];
-  return step_s_[static_cast<std::size_t>(previous) * count_ + next];
-}
-
 // Straight on if the object is not in the way, otherwise out, around it and in again.
 double PushTime::drive(const Pose2& object_T_from, const Pose2& object_T_to) const {
   const Eigen::Vector2d from = object_T_from.position();
@@ -62,11 +56,6 @@ double PushTime::drive(const Pose2& object_T_from, const Pose2& object_T_to) con
 
 double PushTime::first(const Pose2& object_T_robot, int next) const {
   return drive(object_T_robot, begin_[next]) + duration_s_[next];
-}
-
-double PushTime::lowerBound(double distance_m) const {
-  return best_speed_mps_ > 0.0 ? std::max(0.0, distance_m) / best_speed_mps_
-                               : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace casepush

@@ -1,10 +1,10 @@
 #include "push_tree.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "casepush/common/check.h"
-#include "pose_cell.h"
 
 namespace casepush {
 namespace {
@@ -18,87 +18,73 @@ PushTree::PushTree(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m, d
     : rho_m_(rho_m),
       spacing_m_(spacing_m),
       case_count_(case_count),
+      words_((case_count + kBits - 1) / kBits),
       open_(min_m, max_m, rho_m, kBucket_m) {
   CASEPUSH_CHECK(spacing_m > 0.0 && case_count > 0, spacing_m << ", " << case_count << " cases");
 }
 
 void PushTree::clear() {
   nodes_.clear();
-  state_.clear();
-  grows_.clear();
-  untried_.clear();
-  open_position_.clear();
-  tried_.clear();
-  postponed_.clear();
+  cases_.clear();
   cheapest_.clear();
   open_.clear();
   open_ids_.clear();
 }
 
-std::uint64_t PushTree::cell(const Pose2& pose) const { return poseCell(pose, spacing_m_, rho_m_); }
-
 int PushTree::add(const PushNode& node, bool grows) {
   const int id = size();
   if (grows) {
-    const auto [entry, is_new] = cheapest_.try_emplace(cell(node.map_T_object), id);
-    if (!is_new) {
-      if (nodes_[entry->second].cost_s <= node.cost_s) {
+    const CellTable::Entry own{cell(node.map_T_object), static_cast<float>(node.cost_s), id};
+    if (CellTable::Entry* const entry = cheapest_.find(own.cell)) {
+      if (entry->cost_s <= own.cost_s) {
         return -1;
       }
-      close(entry->second);
-      entry->second = id;
+      close(entry->node);
+      *entry = own;
+    } else {
+      cheapest_.add(own);
     }
   }
-  nodes_.push_back(node);
-  state_.push_back(State::kClosed);
-  grows_.push_back(grows);
-  untried_.push_back(case_count_);
-  open_position_.push_back(-1);
-  tried_.resize(tried_.size() + case_count_, false);
+  nodes_.push_back({node, -1, case_count_, State::kClosed, grows});
+  cases_.resize(cases_.size() + words_);
+  if (case_count_ % kBits != 0) {
+    cases_.back().untried = (std::uint64_t{1} << (case_count_ % kBits)) - 1;
+  }
   if (grows) {
     openNode(id);
   }
   return id;
 }
 
-bool PushTree::isCovered(const Pose2& map_T_object, double cost_s) const {
-  const auto entry = cheapest_.find(cell(map_T_object));
-  return entry != cheapest_.end() && nodes_[entry->second].cost_s <= cost_s;
-}
-
-bool PushTree::isTried(int id, int push) const {
-  return tried_[static_cast<std::size_t>(id) * case_count_ + push];
-}
-
 void PushTree::markTried(int id, int push) {
   CASEPUSH_CHECK(!isTried(id, push), "node " << id << ", case " << push);
-  tried_[static_cast<std::size_t>(id) * case_count_ + push] = true;
-  if (--untried_[id] == 0) {
+  cases_[wordOf(id, push)].untried &= ~(std::uint64_t{1} << (push % kBits));
+  if (--nodes_[id].untried == 0) {
     close(id);
   }
 }
 
 void PushTree::markPostponed(int id, int push) {
   markTried(id, push);
-  postponed_.emplace_back(id, push);
+  cases_[wordOf(id, push)].postponed |= std::uint64_t{1} << (push % kBits);
 }
 
 void PushTree::openNode(int id) {
-  state_[id] = State::kOpen;
-  open_position_[id] = static_cast<int>(open_ids_.size());
+  nodes_[id].state = State::kOpen;
+  nodes_[id].open_position = static_cast<int>(open_ids_.size());
   open_ids_.push_back(id);
-  open_.insert(id, nodes_[id].map_T_object);
+  open_.insert(id, nodes_[id].node.map_T_object);
 }
 
 void PushTree::close(int id) {
-  if (state_[id] != State::kOpen) {
+  if (!isOpen(id)) {
     return;
   }
-  state_[id] = State::kClosed;
-  open_.remove(id, nodes_[id].map_T_object);
-  const int position = open_position_[id];
+  nodes_[id].state = State::kClosed;
+  open_.remove(id, nodes_[id].node.map_T_object);
+  const int position = nodes_[id].open_position;
   open_ids_[position] = open_ids_.back();
-  open_position_[open_ids_[position]] = position;
+  nodes_[open_ids_[position]].open_position = position;
   open_ids_.pop_back();
 }
 
@@ -107,53 +93,59 @@ int PushTree::nearestOpen(const Pose2& pose) const {
   if (open_ids_.size() > kFew) return open_.nearest(pose);
   std::pair<double, int> best{std::numeric_limits<double>::infinity(), -1};
   for (const int id : open_ids_) {
-    best = std::min(best, {squaredPoseDistance(nodes_[id].map_T_object, pose, rho_m_), id});
+    best = std::min(best, {squaredPoseDistance(nodes_[id].node.map_T_object, pose, rho_m_), id});
   }
   return best.second;
 }
 
 void PushTree::removeLeaf(int id) {
   close(id);
-  state_[id] = State::kRemoved;
-  const auto entry = cheapest_.find(cell(nodes_[id].map_T_object));
-  if (entry != cheapest_.end() && entry->second == id) cheapest_.erase(entry);
+  nodes_[id].state = State::kRemoved;
+  const std::uint64_t own = cell(nodes_[id].node.map_T_object);
+  const CellTable::Entry* const entry = cheapest_.find(own);
+  if (entry != nullptr && entry->node == id) cheapest_.erase(own);
 }
 
 void PushTree::removeSubtree(int id) {
   close(id);
-  state_[id] = State::kRemoved;
+  nodes_[id].state = State::kRemoved;
   for (int child = id + 1; child < size(); ++child) {  // Parents come before their children.
-    const int parent = nodes_[child].parent;
+    const int parent = nodes_[child].node.parent;
     if (parent != PushNode::kRoot && isRemoved(parent)) {
       close(child);
-      state_[child] = State::kRemoved;
+      nodes_[child].state = State::kRemoved;
     }
   }
   reopenAll();
 }
 
 void PushTree::reopenAll() {
-  for (const auto& [id, push] : postponed_) {
-    tried_[static_cast<std::size_t>(id) * case_count_ + push] = false;
-    ++untried_[id];
+  for (std::size_t i = 0; i < cases_.size(); ++i) {
+    nodes_[i / words_].untried += __builtin_popcountll(cases_[i].postponed);
+    cases_[i].untried |= cases_[i].postponed;
+    cases_[i].postponed = 0;
   }
-  postponed_.clear();
   cheapest_.clear();
   for (int id = 0; id < size(); ++id) {
-    if (isRemoved(id) || !grows_[id]) {
+    if (isRemoved(id) || !nodes_[id].grows) {
       continue;
     }
-    const auto [entry, is_new] = cheapest_.try_emplace(cell(nodes_[id].map_T_object), id);
-    if (!is_new && nodes_[id].cost_s < nodes_[entry->second].cost_s) {
-      entry->second = id;
+    const CellTable::Entry own{cell(nodes_[id].node.map_T_object),
+                               static_cast<float>(nodes_[id].node.cost_s), id};
+    CellTable::Entry* const entry = cheapest_.find(own.cell);
+    if (entry == nullptr) {
+      cheapest_.add(own);
+    } else if (own.cost_s < entry->cost_s) {
+      *entry = own;
     }
   }
   for (int id = 0; id < size(); ++id) {
-    if (isRemoved(id) || !grows_[id]) {
+    if (isRemoved(id) || !nodes_[id].grows) {
       continue;
     }
-    const bool is_open = untried_[id] > 0 && cheapest_.at(cell(nodes_[id].map_T_object)) == id;
-    if (is_open && state_[id] != State::kOpen) {
+    const bool is_cheapest = cheapest_.find(cell(nodes_[id].node.map_T_object))->node == id;
+    const bool is_open = is_cheapest && nodes_[id].untried > 0;
+    if (is_open && !isOpen(id)) {
       openNode(id);
     } else if (!is_open) {
       close(id);

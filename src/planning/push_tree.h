@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "casepush/common/pose2.h"
 #include "casepush/planning/pose_grid.h"
+#include "cell_table.h"
+#include "pose_cell.h"
 
 namespace casepush {
 
@@ -35,18 +34,32 @@ class PushTree {
   void clear();
 
   int size() const { return static_cast<int>(nodes_.size()); }
-  const PushNode& node(int id) const { return nodes_[id]; }
-  bool isOpen(int id) const { return state_[id] == State::kOpen; }
-  bool isRemoved(int id) const { return state_[id] == State::kRemoved; }
+  const PushNode& node(int id) const { return nodes_[id].node; }
+  bool isOpen(int id) const { return nodes_[id].state == State::kOpen; }
+  bool isRemoved(int id) const { return nodes_[id].state == State::kRemoved; }
 
   /// Adds a node unless another one that costs no more stands at the same pose; -1 if so.
   /// @param grows  False for a node that is never to be extended, e.g. in the goal: always added.
   int add(const PushNode& node, bool grows);
 
   /// Would a node that grows be turned down by add()?
-  bool isCovered(const Pose2& map_T_object, double cost_s) const;
+  bool isCovered(const Pose2& map_T_object, double cost_s) const {
+    const CellTable::Entry* const entry = cheapest_.find(cell(map_T_object));
+    return entry != nullptr && entry->cost_s <= static_cast<float>(cost_s);
+  }
 
-  bool isTried(int id, int push) const;
+  bool isTried(int id, int push) const {
+    return (cases_[wordOf(id, push)].untried >> (push % kBits) & 1) == 0;
+  }
+  /// Visits the cases that have not been tried from a node, in order.
+  template <typename Visit>
+  void visitUntried(int id, const Visit& visit) const {
+    for (int first = 0; first < case_count_; first += kBits) {
+      for (std::uint64_t left = cases_[wordOf(id, first)].untried; left != 0; left &= left - 1) {
+        visit(first + __builtin_ctzll(left));
+      }
+    }
+  }
   /// Notes that a case has been tried from a node; the last one closes the node.
   void markTried(int id, int push);
   /// As markTried, but forgotten by removeSubtree: what was turned down for its cost.
@@ -71,21 +84,37 @@ class PushTree {
  private:
   enum class State : std::uint8_t { kOpen, kClosed, kRemoved };
 
-  std::uint64_t cell(const Pose2& pose) const;
+  /// All that is asked for together lies together, in one line of the processor's cache.
+  struct alignas(64) Entry {
+    PushNode node;
+    int open_position = -1;  // index into open_ids_
+    int untried = 0;
+    State state = State::kClosed;
+    bool grows = false;
+  };
+
+  static constexpr int kBits = 64;
+
+  /// Of kBits cases.
+  struct Word {
+    std::uint64_t untried = ~std::uint64_t{0};
+    std::uint64_t postponed = 0;
+  };
+
+  std::uint64_t cell(const Pose2& pose) const { return poseCell(pose, spacing_m_, rho_m_); }
+  std::size_t wordOf(int id, int push) const {
+    return static_cast<std::size_t>(id) * words_ + push / kBits;
+  }
   void openNode(int id);
   void reopenAll();
 
   double rho_m_;
   double spacing_m_;
   int case_count_;
-  std::vector<PushNode> nodes_;
-  std::vector<State> state_;
-  std::vector<bool> grows_;
-  std::vector<int> untried_;
-  std::vector<int> open_position_;  // index into open_ids_
-  std::vector<bool> tried_;         // case_count_ entries for each node
-  std::vector<std::pair<int, int>> postponed_;
-  std::unordered_map<std::uint64_t, int> cheapest_;  // node of each cell
+  int words_;  // for the bits of all cases
+  std::vector<Entry> nodes_;
+  std::vector<Word> cases_;  // words_ for each node
+  CellTable cheapest_;
   PoseGrid open_;
   std::vector<int> open_ids_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,9 +14,10 @@ double squaredPoseDistance(const Pose2& a, const Pose2& b, double rho_m);
 
 /// Set of numbered poses that answers nearest-neighbour queries exactly.
 ///
-/// Buckets of equal size over x, y and yaw are searched in rings around the query; the search ends
-/// when no farther ring can hold anything nearer. Poses outside of the bounds are kept in the
-/// border buckets, so that bounds affect speed only. Not thread-safe.
+/// Buckets of equal size over x, y and yaw, in blocks of 4 x 4 over x and y. Blocks are searched in
+/// rings around the query, in them only buckets that may hold something nearer, until no farther
+/// ring can. Poses outside of the bounds are kept in the border buckets, so that bounds affect
+/// speed only. Not thread-safe.
 class PoseGrid {
  public:
   /// @param rho_m  Weight of yaw in the metric, > 0 [m/rad].
@@ -38,11 +40,21 @@ class PoseGrid {
   void within(const Pose2& pose, double radius_m, std::vector<int>* ids) const;
 
  private:
+  static constexpr int kBlock = 4;  ///< Buckets of a block along x and along y.
+  static constexpr int kInOne = 7;  ///< Poses side by side.
+  static constexpr int kNone = -1;
+
   struct Entry {
     double x_m;
     double y_m;
     double yaw_rad;
     int id;
+  };
+  /// Some poses of a bucket; all but the first group of a bucket are full.
+  struct Group {
+    std::array<Entry, kInOne> entries;
+    int count;
+    int next;  ///< Group of the same bucket, or the next free one; kNone at the end.
   };
   struct Index {
     int x;
@@ -51,11 +63,17 @@ class PoseGrid {
   };
 
   Index indexOf(const Pose2& pose) const;
-  std::vector<Entry>& bucket(const Index& index);
+  std::size_t bucket(const Index& index) const;
+  int& blockSize(const Index& index);
   double squaredDistance(const Entry& entry, const Pose2& pose) const;
+  double turnGap(const Pose2& pose, int yaw) const;
   template <typename Visit>
-  void visitRing(const Index& centre, int ring, const Visit& visit) const;
-  int lastRing(const Index& centre) const;
+  void visitBucket(std::size_t bucket, const Visit& visit) const;
+  template <typename Visit>
+  void visitBlock(const Pose2& pose, int block_x, int block_y, const double& bound,
+                  const Visit& visit) const;
+  template <typename Visit>
+  void search(const Pose2& pose, const double& bound, const Visit& visit) const;
 
   Eigen::Vector2d min_m_;
   double rho_m_;
@@ -63,8 +81,13 @@ class PoseGrid {
   int width_;
   int height_;
   int turns_;  ///< Buckets over the full turn.
+  int blocks_wide_;
+  int blocks_high_;
   double yaw_bucket_rad_;
-  std::vector<std::vector<Entry>> buckets_;
+  std::vector<int> first_group_;  // of each bucket
+  std::vector<int> block_size_;   // poses in each block
+  std::vector<Group> groups_;
+  int free_group_ = kNone;
   int size_ = 0;
 };
 

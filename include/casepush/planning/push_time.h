@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "casepush/planning/prepared_cases.h"
@@ -20,13 +22,19 @@ class PushTime {
   PushTime(const std::vector<PreparedCase>& cases, const PushTimeOptions& options);
 
   /// Push `next` right after push `previous`, with the robot's way in between [s].
-  double after(int previous, int next) const;
+  double after(int previous, int next) const {
+    return count_ > kTabled ? drive(end_[previous], begin_[next]) + duration_s_[next]
+                            : step_s_[static_cast<std::size_t>(previous) * count_ + next];
+  }
 
   /// Push `next` first, with the robot standing at `object_T_robot` [s].
   double first(const Pose2& object_T_robot, int next) const;
 
   /// No chain of pushes moves the object by `distance_m` in less time [s].
-  double lowerBound(double distance_m) const;
+  double lowerBound(double distance_m) const {
+    return best_speed_mps_ > 0.0 ? std::max(0.0, distance_m) / best_speed_mps_
+                                 : std::numeric_limits<double>::infinity();
+  }
 
  private:
   static constexpr std::size_t kTabled = 256;  // With more cases a table would be too large.

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+
+#include "casepush/common/pose2.h"
+
+namespace casepush {
+
+/// A pose at which many pushes are looked at: its trigonometry is worked out once.
+class PushStart {
+ public:
+  explicit PushStart(const Pose2& map_T_start)
+      : map_T_start_(map_T_start),
+        cosine_(std::cos(map_T_start.yaw())),
+        sine_(std::sin(map_T_start.yaw())) {}
+
+  /// The same as `map_T_start * start_T_end`, bit by bit.
+  Pose2 operator*(const Pose2& start_T_end) const {
+    const Eigen::Vector2d end = positionOf(start_T_end);
+    return {end.x(), end.y(), map_T_start_.yaw() + start_T_end.yaw()};
+  }
+
+  Eigen::Vector2d positionOf(const Pose2& start_T_end) const {
+    return {map_T_start_.x() + cosine_ * start_T_end.x() - sine_ * start_T_end.y(),
+            map_T_start_.y() + sine_ * start_T_end.x() + cosine_ * start_T_end.y()};
+  }
+
+ private:
+  Pose2 map_T_start_;
+  double cosine_;
+  double sine_;
+};
+
+}  // namespace casepush
