@@ -1,37 +1,23 @@
 #include "goal_guide.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "casepush/world/shadow.h"
+#include "grid_flood.h"
 #include "origin_distance.h"
 
 namespace casepush {
 namespace {
 
 constexpr double kCell_m = 0.2;
+constexpr double kBeyond_m = 3.0;    // It looks half as far again as the start is, and this.
 constexpr double kSpacious_m = 0.3;  // More clearance than this, around the object, is not better.
-constexpr int kStep = 8;             // Steps of a way straight through an open cell.
-constexpr int kUnknown = std::numeric_limits<int>::max();
-constexpr int kRings = 64;  // More than the steps of the longest edge.
-
-struct Neighbour {
-  int dx;
-  int dy;
-  double length;
-};
-
-constexpr std::array<Neighbour, 8> kNeighbours = {{{1, 0, 1.0},
-                                                   {-1, 0, 1.0},
-                                                   {0, 1, 1.0},
-                                                   {0, -1, 1.0},
-                                                   {1, 1, M_SQRT2},
-                                                   {-1, 1, M_SQRT2},
-                                                   {1, -1, M_SQRT2},
-                                                   {-1, -1, M_SQRT2}}};
+// Halves of the lengths of a way through an open cell, in whole numbers: a step takes those of both
+// its cells.
+constexpr double kHalfStraight = 12.0;
+constexpr double kHalfDiagonal = 17.0;
+constexpr int kLongestStep = static_cast<int>(2.0 * kHalfDiagonal * ObjectRoom::kTight);
 
 }  // namespace
 
@@ -99,92 +85,75 @@ const ObjectRoom& RoomLibrary::get(const std::string& model) {
   return rooms_.try_emplace(model, *columns_, objects_.at(model).solid).first->second;
 }
 
-GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<PlacedSolid>& obstacles,
+GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<float>& factors,
                      const Eigen::Vector2d& start_m, const Eigen::Vector2d& goal_m,
                      double tolerance_m)
-    : goal_m_(goal_m), room_(room) {
+    : goal_m_(goal_m),
+      room_(room),
+      stride_(room.width() + 2),
+      low_m_(room.centre(0)),
+      last_(room.width() - 1.0, room.height() - 1.0),
+      cells_per_m_(1.0 / room.cell()) {
+  const std::size_t cells = static_cast<std::size_t>(stride_) * (room.height() + 2);
+  std::vector<Halves> halves(cells);  // with a rim
   const int start = cell(start_m);
   const int goal = cell(goal_m);
-  std::vector<float> factors = room.factors(obstacles);
-  for (const int end : {start, goal}) {
-    factors[end] = std::max(factors[end], 1.0F);  // They were found free, at least nearly.
-  }
-  reaches_start_ = spread(factors, start, {goal});
-  if (reaches_start_) return;
-  std::vector<int> region;  // It may lie on both sides of something.
-  for (int other = 0; other < static_cast<int>(factors.size()); ++other) {
-    const double apart_m = (room.centre(other) - goal_m).norm();
-    if (factors[other] > 0.0F && apart_m <= tolerance_m + room.cell() * M_SQRT1_2) {
-      region.push_back(other);
+  for (int y = 0; y < room.height(); ++y) {
+    for (int x = 0; x < room.width(); ++x) {
+      const int at = (y + 1) * stride_ + x + 1;
+      float factor = factors[static_cast<std::size_t>(y) * room.width() + x];
+      if (at == start || at == goal) factor = std::max(factor, 1.0F);  // Nearly free, at least.
+      halves[at] = {static_cast<std::uint8_t>(kHalfStraight * factor + 0.5),
+                    static_cast<std::uint8_t>(kHalfDiagonal * factor + 0.5)};
     }
   }
-  reaches_start_ = spread(factors, start, region);
+  reaches_start_ = spread(halves, start, {goal});
+  if (!reaches_start_) reaches_start_ = spread(halves, start, region(halves, tolerance_m));
+}
+
+// It may lie on both sides of something.
+std::vector<int> GoalGuide::region(const std::vector<Halves>& halves, double tolerance_m) const {
+  std::vector<int> region;
+  for (int y = 0; y < room_.height(); ++y) {
+    for (int x = 0; x < room_.width(); ++x) {
+      const int at = (y + 1) * stride_ + x + 1;
+      const double apart_m = (room_.centre(y * room_.width() + x) - goal_m_).norm();
+      const bool is_near = apart_m <= tolerance_m + room_.cell() * M_SQRT1_2;
+      if (is_near && halves[at].straight > 0) region.push_back(at);
+    }
+  }
+  return region;
 }
 
 int GoalGuide::cell(const Eigen::Vector2d& point_m) const {
   const Eigen::Vector2d index = room_.index(point_m);
   const int x = static_cast<int>(std::clamp(index.x(), 0.0, room_.width() - 1.0));
   const int y = static_cast<int>(std::clamp(index.y(), 0.0, room_.height() - 1.0));
-  return y * room_.width() + x;
+  return (y + 1) * stride_ + x + 1;
 }
 
-// Dijkstra's algorithm with a ring of buckets for a queue (Dial, 1969).
-bool GoalGuide::spread(const std::vector<float>& factors, int start,
+bool GoalGuide::spread(const std::vector<Halves>& halves, int start,
                        const std::vector<int>& goals) {
-  std::vector<std::vector<int>> ring(kRings);
-  const auto more = static_cast<int>(3.0 / room_.cell() * kStep);
-  int limit = kUnknown;
-  auto waiting = static_cast<int>(goals.size());
-  steps_.assign(factors.size(), kUnknown);
-  for (const int goal : goals) steps_[goal] = 0;
-  ring[0] = goals;
-  int now = 0;
-  for (; waiting > 0 && now < limit; ++now) {
-    std::vector<int>& bucket = ring[now % kRings];
-    for (std::size_t i = 0; i < bucket.size(); ++i) {
-      const int cell = bucket[i];
-      if (steps_[cell] != now) continue;
-      if (cell == start) limit = now + now / 2 + more;
-      const int x = cell % room_.width();
-      const int y = cell / room_.width();
-      for (const Neighbour& to : kNeighbours) {
-        const bool inside = x + to.dx >= 0 && y + to.dy >= 0 && x + to.dx < room_.width() &&
-                            y + to.dy < room_.height();
-        const int next = cell + to.dy * room_.width() + to.dx;
-        if (!inside || factors[next] <= 0.0F) continue;
-        const double cost = 0.5 * (factors[cell] + factors[next]) * to.length * kStep;
-        const int reached = now + static_cast<int>(cost + 0.5);
-        if (reached >= steps_[next]) continue;
-        steps_[next] = reached;
-        ring[reached % kRings].push_back(next);
-        ++waiting;
-      }
-    }
-    waiting -= static_cast<int>(bucket.size());
-    bucket.clear();
+  const double unit_m = 0.5 * room_.cell() / kHalfStraight;
+  const auto more = static_cast<int>(kBeyond_m / unit_m);
+  GridFlood flood(static_cast<int>(halves.size()), stride_, kLongestStep);
+  for (const int goal : goals) flood.begin(goal);
+  int limit = GridFlood::kUnreached;
+  const int farthest = flood.spread(
+      [&halves](int from, int to, bool is_diagonal) {
+        if (halves[to].straight == 0) return 0;
+        return is_diagonal ? halves[from].diagonal + halves[to].diagonal
+                           : halves[from].straight + halves[to].straight;
+      },
+      [&limit, start, more](int at, int now) {
+        if (at == start) limit = now + now / 2 + more;
+        return now < limit;
+      });
+  way_m_.resize(halves.size());
+  for (std::size_t at = 0; at < halves.size(); ++at) {
+    way_m_[at] = static_cast<float>(unit_m * std::min(flood.distance()[at], farthest));
   }
-  farthest_ = now;
-  return limit != kUnknown;
-}
-
-// Bilinear between the centres of cells.
-double GoalGuide::at(const Eigen::Vector2d& point_m) const {
-  const Eigen::Vector2d index = room_.index(point_m);
-  const double fx = std::clamp(index.x() - 0.5, 0.0, room_.width() - 1.001);
-  const double fy = std::clamp(index.y() - 0.5, 0.0, room_.height() - 1.001);
-  const int x = static_cast<int>(fx);
-  const int y = static_cast<int>(fy);
-  const auto steps = [this](int cx, int cy) {
-    const std::size_t cell =
-        static_cast<std::size_t>(std::min(cy, room_.height() - 1)) * room_.width() +
-        std::min(cx, room_.width() - 1);
-    return static_cast<double>(std::min(steps_[cell], farthest_));
-  };
-  const double tx = fx - x;
-  const double ty = fy - y;
-  const double value = (1.0 - ty) * ((1.0 - tx) * steps(x, y) + tx * steps(x + 1, y)) +
-                       ty * ((1.0 - tx) * steps(x, y + 1) + tx * steps(x + 1, y + 1));
-  return std::max(value / kStep * room_.cell(), (point_m - goal_m_).norm());
+  return limit != GridFlood::kUnreached;
 }
 
 }  // namespace casepush

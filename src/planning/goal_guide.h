@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -64,24 +66,48 @@ class RoomLibrary {
 class GoalGuide {
  public:
   /// Looks a little farther than from goal to start, not over the whole of a large map.
-  GoalGuide(const ObjectRoom& room, const std::vector<PlacedSolid>& obstacles,
+  /// @param factors  Of the room with all obstacles.
+  GoalGuide(const ObjectRoom& room, const std::vector<float>& factors,
             const Eigen::Vector2d& start_m, const Eigen::Vector2d& goal_m, double tolerance_m);
 
   /// False only if there is certainly no way of the object's origin from start to the
   /// goal region.
   bool reachesStart() const { return reaches_start_; }
 
-  double at(const Eigen::Vector2d& point_m) const;  ///< [m]
+  double at(const Eigen::Vector2d& point_m) const {  ///< [m]
+    // Bilinear between the centres of cells.
+    const double fx = std::clamp((point_m.x() - low_m_.x()) * cells_per_m_, 0.0, last_.x());
+    const double fy = std::clamp((point_m.y() - low_m_.y()) * cells_per_m_, 0.0, last_.y());
+    const int x = static_cast<int>(fx);
+    const int y = static_cast<int>(fy);
+    const float* const below = &way_m_[static_cast<std::size_t>(y + 1) * stride_ + x + 1];
+    const float* const above = below + stride_;
+    const double tx = fx - x;
+    const double ty = fy - y;
+    const double way_m = (1.0 - ty) * ((1.0 - tx) * below[0] + tx * below[1]) +
+                         ty * ((1.0 - tx) * above[0] + tx * above[1]);
+    return std::max(way_m, (point_m - goal_m_).norm());
+  }
 
  private:
+  /// Of the lengths of a way through a cell; 0 where there is none.
+  struct Halves {
+    std::uint8_t straight = 0;
+    std::uint8_t diagonal = 0;
+  };
+
   int cell(const Eigen::Vector2d& point_m) const;
-  bool spread(const std::vector<float>& factors, int start, const std::vector<int>& goals);
+  std::vector<int> region(const std::vector<Halves>& halves, double tolerance_m) const;
+  bool spread(const std::vector<Halves>& halves, int start, const std::vector<int>& goals);
 
   Eigen::Vector2d goal_m_;
   const ObjectRoom& room_;
+  int stride_;             // There is a rim of one cell around the room.
+  Eigen::Vector2d low_m_;  // centre of the first cell
+  Eigen::Vector2d last_;   // of the last cell, from there and in cells
+  double cells_per_m_;
   bool reaches_start_ = false;
-  std::vector<int> steps_;  // in kStep-ths of a cell, from each cell to the goal
-  int farthest_ = 0;        // steps of cells that were not looked at
+  std::vector<float> way_m_;  // from each cell to the goal
 };
 
 }  // namespace casepush

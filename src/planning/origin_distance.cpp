@@ -1,13 +1,13 @@
 #include "origin_distance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 
 #include "casepush/world/shadow.h"
+#include "grid_flood.h"
 
 namespace casepush {
 namespace {
@@ -18,8 +18,7 @@ const double kGridStretch = std::cos(M_PI / 8.0);
 // Whole numbers for the two lengths of a step; their ratio is just below the square root of 2, so
 // that distances are not too long, by less than 0.04 %.
 constexpr int kStraight = 29;
-constexpr int kDiagonal = OriginDistance::kLongestStep;
-constexpr int kUnreached = std::numeric_limits<int>::max();
+constexpr int kDiagonal = 41;
 
 }  // namespace
 
@@ -119,49 +118,29 @@ OriginDistance::OriginDistance(const CollisionChecker::Columns& columns, const S
   const BlockedCells blocked(columns, innerDiscs(object));
   stride_ = blocked.stride();
   first_ = blocked.index(0, 0);
-  distance_.assign(blocked.size(), kUnreached);
-  Waiting waiting;
+  GridFlood flood(static_cast<int>(blocked.size()), stride_, kDiagonal);
   const double reach_m = tolerance_m + resolution_m_ * M_SQRT1_2;
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       const Eigen::Vector2d centre = origin_m_ + resolution_m_ * Eigen::Vector2d(x + 0.5, y + 0.5);
       if ((centre - goal_m).squaredNorm() > reach_m * reach_m) continue;
       const int cell = blocked.index(x, y);
-      if (blocked[cell]) continue;
-      distance_[cell] = 0;
-      waiting[0].push_back(cell);
+      if (!blocked[cell]) flood.begin(cell);
     }
   }
-  if (!spread(blocked, stop, &waiting)) std::fill(distance_.begin(), distance_.end(), 0);
-}
-
-// Dial's algorithm: cells wait by their distance, and no two that wait are more than a longest step
-// apart.
-bool OriginDistance::spread(const BlockedCells& blocked, const std::function<bool()>& stop,
-                            Waiting* waiting) {
-  const std::array<int, 8> steps = {1,           -1,          stride_,      -stride_,
-                                    stride_ + 1, stride_ - 1, -stride_ + 1, -stride_ - 1};
   constexpr std::size_t kBetweenStops = 1 << 16;
   std::size_t settled = 0;
-  std::size_t left = waiting->front().size();
-  for (int distance = 0; left > 0; ++distance) {
-    std::vector<int>& current = (*waiting)[distance % waiting->size()];
-    left -= current.size();
-    for (const int cell : current) {
-      if (distance_[cell] != distance) continue;
-      if (stop && ++settled % kBetweenStops == 0 && stop()) return false;
-      for (std::size_t i = 0; i < steps.size(); ++i) {
-        const int next = cell + steps[i];
-        const int reached = distance + (i < steps.size() / 2 ? kStraight : kDiagonal);
-        if (reached >= distance_[next] || blocked[next]) continue;
-        distance_[next] = reached;
-        (*waiting)[reached % waiting->size()].push_back(next);
-        ++left;
-      }
-    }
-    current.clear();
-  }
-  return true;
+  bool stopped = false;
+  flood.spread(
+      [&blocked](int, int to, bool is_diagonal) {
+        return blocked[to] ? 0 : is_diagonal ? kDiagonal : kStraight;
+      },
+      [&](int, int) {
+        stopped = stop && ++settled % kBetweenStops == 0 && stop();
+        return !stopped;
+      });
+  distance_ = flood.takeDistance();
+  if (stopped) std::fill(distance_.begin(), distance_.end(), 0);
 }
 
 double OriginDistance::at(const Eigen::Vector2d& point_m) const {
@@ -171,7 +150,7 @@ double OriginDistance::at(const Eigen::Vector2d& point_m) const {
   }
   const int steps =
       distance_[first_ + static_cast<int>(index.y()) * stride_ + static_cast<int>(index.x())];
-  if (steps == kUnreached) return std::numeric_limits<double>::infinity();
+  if (steps == GridFlood::kUnreached) return std::numeric_limits<double>::infinity();
   const double grid_m = resolution_m_ / kStraight * steps;
   // Start and end lie anywhere in their cells.
   return std::max(0.0, kGridStretch * grid_m - 2.0 * resolution_m_);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -27,13 +26,8 @@ class OriginDistance {
   /// At least so far to the region; infinite if it cannot be reached at all [m].
   double at(const Eigen::Vector2d& point_m) const;
 
-  static constexpr int kLongestStep = 41;  ///< Between neighbouring cells, in its own unit.
-
  private:
   class BlockedCells;
-  using Waiting = std::array<std::vector<int>, kLongestStep + 1>;
-
-  bool spread(const BlockedCells& blocked, const std::function<bool()>& stop, Waiting* waiting);
 
   Eigen::Vector2d origin_m_;
   double resolution_m_;

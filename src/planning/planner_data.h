@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "approach_check.h"
@@ -12,6 +13,7 @@
 #include "goal_guide.h"
 #include "plan_request.h"
 #include "plan_search.h"
+#include "scene_library.h"
 #include "sweep_library.h"
 
 namespace casepush {
@@ -37,6 +39,7 @@ struct PushPlanner::Data {
   std::unique_ptr<ApproachLibrary> approaches;
   std::unique_ptr<CaseSetLibrary> case_sets;
   std::unique_ptr<RoomLibrary> rooms;
+  std::unique_ptr<SceneLibrary> scenes;
 
   CollisionChecker checkerWith(const std::vector<PlacedSolid>& obstacles) const {
     CollisionChecker copy = checker;
@@ -46,8 +49,11 @@ struct PushPlanner::Data {
 
   PushChecker pushChecker(const std::string& model,
                           const std::vector<PlacedSolid>& obstacles) const {
+    return pushChecker(model, footprints.at(model).sweeps->withObstaclesOf(checkerWith(obstacles)));
+  }
+  PushChecker pushChecker(const std::string& model, SweepChecker sweeps) const {
     return PushChecker(
-        footprints.at(model).sweeps->withObstaclesOf(checkerWith(obstacles)),
+        std::move(sweeps),
         {footprints.at(model).grown, objects.at(model).radius_m + options.object_margin_m},
         {robot_footprint, robot.radius_m + options.robot_margin_m});
   }

@@ -146,7 +146,8 @@ PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
            std::make_unique<SweepLibrary>(std::size_t{1000000} * options.mask_memory_mb),
            {},
            std::make_unique<CaseSetLibrary>(),
-           {}});
+           {},
+           std::make_unique<SceneLibrary>()});
   data_->robot_footprint = data_->checker.footprint(data_->robot.solid, options.robot_margin_m);
   data_->approaches = std::make_unique<ApproachLibrary>(data_->checker, data_->robot,
                                                         data_->objects, options.robot_path);
@@ -225,14 +226,18 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
                                      const SearchClock& clock) const {
   const std::vector<PlacedSolid> obstacles = placeObstacles(request.obstacles, objects);
   const Footprints& own = footprints.at(request.object.model);
-  PushChecker push_checker = pushChecker(request.object.model, obstacles);
+  const auto scene = scenes->get(request.object.model, request.obstacles, [&] {
+    return Scene{own.sweeps->withObstaclesOf(checkerWith(obstacles)),
+                 rooms->get(request.object.model).factors(obstacles)};
+  });
+  PushChecker push_checker = pushChecker(request.object.model, scene->sweeps);
   if (const auto problem = checkStartAndGoal(request, push_checker.collisions(), *own.exact)) {
     return failed(problem->status, problem->explanation);
   }
   push_checker.tolerateStart(request.object.map_T_object);
   const SearchProblem problem = this->problem(request, cases, obstacles);
   PlanResult result;
-  const GoalGuide guide(problem.room, obstacles, request.object.map_T_object.position(),
+  const GoalGuide guide(problem.room, scene->room, request.object.map_T_object.position(),
                         request.map_T_goal.position(), request.tolerance.position_m);
   if (!guide.reachesStart()) {
     result.status = PlanStatus::kUnreachable;

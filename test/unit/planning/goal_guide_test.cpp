@@ -18,7 +18,7 @@ WorldModel roomWithWall(double length_m) {
 }
 
 GoalGuide guideIn(const ObjectRoom& room, const std::vector<PlacedSolid>& obstacles = {}) {
-  return {room, obstacles, kStart, kGoal, kTolerance_m};
+  return {room, room.factors(obstacles), kStart, kGoal, kTolerance_m};
 }
 
 TEST(GoalGuide, isAboutTheStraightWayInTheOpen) {
