@@ -11,6 +11,7 @@
 #include "casepush/common/random.h"
 #include "casepush/common/violations.h"
 #include "casepush/lab/push_run.h"
+#include "casepush/lab/quantile.h"
 #include "casepush/world/static_map.h"
 
 namespace casepush {
@@ -18,16 +19,6 @@ namespace {
 
 // So long that it never cuts a measurement off.
 constexpr double kPatience_s = 60.0;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double largest(const std::vector<double>& values) {
-  return *std::max_element(values.begin(), values.end());
-}
 
 /// Motion `a_T_b` of the object, seen by somebody who stands turned by `angle_rad`.
 Pose2 turned(double angle_rad, const Pose2& a_T_b) {
@@ -106,9 +97,9 @@ class Bench {
       times_s.push_back(result.planning_s);
       per_node_us.push_back(1e6 * result.planning_s / std::max(1, result.nodes));
     }
-    tree.median_s = median(times_s);
-    tree.max_s = largest(times_s);
-    tree.per_node_us = median(per_node_us);
+    tree.median_s = quantile(times_s, 0.5);
+    tree.max_s = quantile(times_s, 1.0);
+    tree.per_node_us = quantile(per_node_us, 0.5);
     return tree;
   }
 
@@ -123,8 +114,8 @@ class Bench {
       first.solved += result.status == PlanStatus::kSolved ? 1 : 0;
       times_s.push_back(result.planning_s);
     }
-    first.median_s = median(times_s);
-    first.max_s = largest(times_s);
+    first.median_s = quantile(times_s, 0.5);
+    first.max_s = quantile(times_s, 1.0);
     return first;
   }
 

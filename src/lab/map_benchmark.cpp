@@ -1,6 +1,5 @@
 #include "casepush/lab/map_benchmark.h"
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,7 @@
 #include "casepush/common/random.h"
 #include "casepush/common/scratch_folder.h"
 #include "casepush/lab/push_run.h"
+#include "casepush/lab/quantile.h"
 #include "casepush/world/collision_checker.h"
 
 namespace casepush {
@@ -22,12 +22,6 @@ double secondsOf(const Action& action) {
   const auto begin = std::chrono::steady_clock::now();
   action();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 /// The centres of all cells of a box that appears on the floor.
@@ -62,8 +56,8 @@ void measureUpdates(const MapBenchmarkOptions& options, Map map, CollisionChecke
                                       corner_m + Eigen::Vector2d::Constant(kBox_m) + margin_m};
     checker_s.push_back(secondsOf([&] { checker = checker.updated(map, area); }));
   }
-  result->update_map_s = median(std::move(map_s));
-  result->update_checker_s = median(std::move(checker_s));
+  result->update_map_s = quantile(std::move(map_s), 0.5);
+  result->update_checker_s = quantile(std::move(checker_s), 0.5);
 }
 
 MapBenchmark::Plan measurePlan(const Catalog& catalog, const PushProblem& problem,

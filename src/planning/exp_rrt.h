@@ -68,14 +68,15 @@ using CanApproach = std::function<bool(const Pose2& map_T_object, const Prepared
 /// both modes: a (node, case) pair is tried once, an exhausted node leaves the search, and so does
 /// a node to whose push the robot cannot get, which is asked before anything is pushed on from it.
 /// With Similarity::kMetric also: of two nodes at nearly the same pose only the cheaper grows, and
-/// no push is checked that would end where a cheaper one has; for a random sample cases are tried in
-/// order of the distance of their outcome until the first safe one, at most six; for the goal the pair of node and case is taken that promises the shortest time over the
-/// whole way (the guide says what is left), and chains of up to three cases that end in the goal
-/// region are tried from every new node. Once a solution is known, what cannot become cheaper is
-/// left out, and random samples extend the cheapest node within a random radius. With
-/// Similarity::kPaper the node and the case most similar by eq. 3 are taken, all cases of a node
-/// are checked. With chance constraints a push is safe if its mean motion is and the chain up to it
-/// does not risk too much, and expected recoveries count as time.
+/// no push is checked that would end where a cheaper one has; for a random sample cases are tried
+/// in order of the distance of their outcome until the first safe one, at most six; for the goal
+/// the pair of node and case is taken that promises the shortest time over the whole way (the guide
+/// says what is left), and chains of up to three cases that end in the goal region are tried from
+/// every new node. Once a solution is known, what cannot become cheaper is left out, and random
+/// samples extend the cheapest node within a random radius. With Similarity::kPaper the node and
+/// the case most similar by eq. 3 are taken, all cases of a node are checked. With chance
+/// constraints a push is safe if its mean motion is and the chain up to it does not risk too much,
+/// and expected recoveries count as time.
 ///
 /// Each solve() continues the tree until the next new solution, the termination condition, or until
 /// nothing is left to try. Its own seed makes it reproducible; OMPL's random numbers are not used.

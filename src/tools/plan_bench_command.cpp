@@ -7,6 +7,7 @@
 #include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
 #include "casepush/lab/plan_benchmark.h"
+#include "casepush/lab/quantile.h"
 #include "command.h"
 
 namespace casepush {
@@ -19,13 +20,6 @@ struct PlanBenchArguments {
   std::string log;
   std::vector<std::string> planners;
 };
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(share * last + 0.5)];
-}
 
 nlohmann::ordered_json plannerJson(PlannerKind kind, const std::vector<PlanRun>& runs) {
   std::vector<double> times_s;

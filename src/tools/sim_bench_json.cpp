@@ -1,7 +1,8 @@
 #include "sim_bench_json.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "casepush/lab/quantile.h"
 
 namespace casepush {
 namespace {
@@ -10,14 +11,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kLeastSigma = 1e-6;  // Below it an outcome does not vary.
 constexpr double kTipped_rad = 0.01;  // Far more than wheels yield.
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto low = static_cast<std::size_t>(place);
-  const std::size_t high = std::min(low + 1, values.size() - 1);
-  return values[low] + (place - static_cast<double>(low)) * (values[high] - values[low]);
-}
 
 Json spread(const std::vector<double>& values) {
   return {{"median", quantile(values, 0.5)}, {"p90", quantile(values, 0.9)}};
