@@ -21,13 +21,11 @@ RobotWatch::Status RobotWatch::check(const Observation& observation) {
   }
   const bool is_fresh = observation.map_T_robot.isFinite() &&
                         observation.stamp_s - observation.robot_stamp_s <= stale_s_;
-  if (is_fresh || !last_fresh_s_) {
-    last_fresh_s_ = observation.stamp_s;
-  }
+  const double stale_for_s = silence_.update(observation.stamp_s, !is_fresh);
   if (is_fresh) {
     return Status::kFresh;
   }
-  return observation.stamp_s - *last_fresh_s_ > kLostAfterS ? Status::kLost : Status::kStale;
+  return stale_for_s > kLostAfterS ? Status::kLost : Status::kStale;
 }
 
 std::optional<double> TickClock::advance(double stamp_s) {

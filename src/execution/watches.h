@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "casepush/common/silence_timer.h"
 #include "casepush/execution/execute_push.h"
 #include "casepush/model/observation.h"
 
@@ -14,12 +15,13 @@ class RobotWatch {
 
   explicit RobotWatch(double stale_s) : stale_s_(stale_s) {}
 
-  /// kStale: not finite or too old, so that the robot must stand still; kLost: for over 2 s.
+  /// kStale: not finite or too old, so that the robot must stand still; kLost: for over 2 s of ticks,
+  /// whatever the clock says. To be asked at every tick.
   Status check(const Observation& observation);
 
  private:
   double stale_s_;
-  std::optional<double> last_fresh_s_;
+  SilenceTimer silence_;
 };
 
 /// Time between ticks.

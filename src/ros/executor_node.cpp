@@ -149,6 +149,7 @@ void ExecutorNode::begin(std::unique_ptr<Activity> activity) {
   end_explanation_.clear();
   last_tick_ = SteadyClock::now();
   last_state_s_ = -1e9;
+  objects_silence_.reset();
   watchdog_.arm();
 }
 
@@ -190,11 +191,13 @@ void ExecutorNode::tick(double now_s) {
     command_.publish(geometry_msgs::Twist());
     return;
   }
-  if (now_s - objects_stamp_s_ > parameters_.lost_objects_s && end_ == ActivityEnd::kFinished) {
+  const bool is_stale = now_s - objects_stamp_s_ > parameters_.stale_objects_s;
+  const double silent_s = objects_silence_.update(now_s, is_stale);
+  if (silent_s > parameters_.lost_objects_s && end_ == ActivityEnd::kFinished) {
     end(ActivityEnd::kStopped, "tracked poses (topic objects) ceased: is perception gone?");
     return;
   }
-  if (now_s - objects_stamp_s_ > parameters_.stale_objects_s && end_ == ActivityEnd::kFinished) {
+  if (is_stale && end_ == ActivityEnd::kFinished) {
     // A behaviour whose commands are overridden would take the robot for held by something.
     command_.publish(toMessage(safeCommand(*observation, Twist2{})));
     return;

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "casepush/common/silence_timer.h"
 #include "casepush/ros/action_plan_client.h"
 #include "casepush/ros/activity.h"
 #include "casepush/ros/command_guard.h"
@@ -80,6 +81,7 @@ class ExecutorNode {
   std::vector<Case> cases_;
   std::vector<ObjectState> objects_;
   double objects_stamp_s_ = -1e9;
+  SilenceTimer objects_silence_;
   nav_msgs::Odometry odometry_;
 
   CommandGuard guard_;

@@ -77,7 +77,7 @@ struct ExecutorNodeParameters {
   PushTaskOptions task;
   double watchdog_s = 0.12;       ///< Wall time without a tick after which zero is commanded.
   double stale_objects_s = 0.15;  ///< Age of `objects` above which zero is commanded,
-  double lost_objects_s = 2.0;    ///< and above which a goal is aborted.
+  double lost_objects_s = 2.0;    ///< and for how long until a goal is aborted.
   double teleop_timeout_s = 0.3;  ///< Wall time without teleop_cmd_vel after which the base stops.
   double dead_clock_s = 5.0;      ///< Wall time without a tick after which a goal is aborted.
 };
