@@ -7,20 +7,25 @@
 
 namespace casepush {
 
-/// Does something hold the robot? It does if the robot was moving and has hardly moved for a fifth
-/// of a second though it was told to; or if it does not start for a second. Goes by the robot's
-/// pose in the map: wheels may turn on the spot.
+/// Does something hold the robot? It does if the robot was moving and for a fifth of a second has
+/// not done what it was told; or if it does not start for a second. Goes by the robot's pose in the
+/// map: wheels may turn on the spot.
 class BlockedWatch {
  public:
-  /// To be asked once a tick.
+  enum class Drive {
+    kFree,  ///< Nothing to touch: held if half of the motion is missing, also if it slides along.
+    kPushing,  ///< What it pushes may slow it down: held if it hardly moves.
+  };
+
+  /// To be asked once a tick. Says no when there is no newer pose of the robot.
   /// @param commanded  What the base was told at the last tick, in the robot frame.
-  bool isBlocked(const Observation& observation, const Twist2& commanded);
+  bool isBlocked(const Observation& observation, const Twist2& commanded, Drive drive);
 
   void reset();
 
  private:
   enum class Motion { kUnknown, kFollows, kHeld };
-  Motion lastMotion() const;
+  Motion lastMotion(Drive drive) const;
 
   struct Sample {
     double stamp_s;

@@ -172,7 +172,7 @@ Twist2 ExecutePush::Data::approachTick(const Observation& observation, double dt
     finish(PushOutcome::kTimeout, "the approach took too long: " + approach.describe());
     return Twist2{};
   }
-  if (blocked.isBlocked(observation, commanded)) {
+  if (blocked.isBlocked(observation, commanded, BlockedWatch::Drive::kFree)) {
     finish(PushOutcome::kApproachFailed,
            "something unknown holds the robot at " + positionText(observation.map_T_robot));
     return Twist2{};
@@ -201,7 +201,7 @@ void ExecutePush::Data::beginPush(const Observation& observation) {
 Twist2 ExecutePush::Data::followPush(const Observation& observation) {
   const Reference reference{draft.map_T_start * trajectory.poseAt(push_time_s),
                             trajectory.actionAt(push_time_s)};
-  if (blocked.isBlocked(observation, commanded) ||
+  if (blocked.isBlocked(observation, commanded, BlockedWatch::Drive::kPushing) ||
       held.isHeld(push_time_s, distance(observation.map_T_robot, reference.map_T_reference))) {
     finish(PushOutcome::kBlocked, "something holds the robot while it pushes " + object_id);
     return Twist2{};

@@ -124,7 +124,7 @@ void ObjectSearch::Data::beginTurn(const Observation& observation) {
 
 Twist2 ObjectSearch::Data::turn(const Observation& observation) {
   const bool there = std::abs(yawDifference(observation.map_T_robot, turn_goal)) < kYawToleranceRad;
-  if (there || blocked.isBlocked(observation, commanded) ||
+  if (there || blocked.isBlocked(observation, commanded, BlockedWatch::Drive::kFree) ||
       observation.stamp_s - stage_began_s > kTurnTimeoutS) {
     enter(Stage::kLook, observation.stamp_s);
     return Twist2{};
@@ -186,7 +186,7 @@ void ObjectSearch::Data::goToNextPlace(const Observation& observation) {
 }
 
 Twist2 ObjectSearch::Data::drive(const Observation& observation, double dt_s) {
-  if (blocked.isBlocked(observation, commanded)) {
+  if (blocked.isBlocked(observation, commanded, BlockedWatch::Drive::kFree)) {
     enter(Stage::kLook, observation.stamp_s);
     return Twist2{};
   }

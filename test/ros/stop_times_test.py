@@ -124,9 +124,8 @@ class StopTimesTest(drill.Drill):
 
     def test_when_something_unknown_is_in_the_way(self):
         contacts = harness.Recorder("contacts", BodyContactArray)
-        self.place(robot=(-4.0, 0.3, 0.0))
-        self.start_push()
         self.bar_the_way()
+        self.start_push()
         contacts.wait(lambda m: any("box_1" in (c.body_a, c.body_b) for c in m.contacts))
         event_s = self.now()
         self.expect_stop("something in the way", event_s)
