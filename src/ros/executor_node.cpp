@@ -140,6 +140,9 @@ std::string ExecutorNode::whatIsMissing() const {
   } catch (const std::exception& error) {
     return std::string("the robot's pose is unknown (TF map -> base_link): ") + error.what();
   }
+  if (ros::Time::now().toSec() - objects_stamp_s_ > parameters_.lost_objects_s) {
+    return "there are no tracked poses (topic objects): is perception gone?";
+  }
   return "";
 }
 

@@ -53,9 +53,8 @@ LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handl
       adapting_(&base_, parameters_.context, parameters_.adapting),
       objects_(handle),
       execute_push_(handle, names::kExecutePushAction, true),
-      server_(
-          handle, names::kLearnObjectAction,
-          [this](const LearnObjectGoalConstPtr& goal) { onGoal(goal); }, false),
+      server_(handle, names::kLearnObjectAction,
+              [this](const LearnObjectGoalConstPtr& goal) { onGoal(goal); }),
       demonstrations_(parameters_.furnishing, objects_, parameters_.demonstration, handle,
                       {[this] {
                          return server_.isActive() ? std::string("learning is under way")

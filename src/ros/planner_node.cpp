@@ -29,9 +29,8 @@ PlannerNode::PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handl
     : parameters_(std::move(parameters)),
       handle_(handle),
       listener_(buffer_),
-      server_(
-          handle, names::kPlanPushAction,
-          [this](const PlanPushGoalConstPtr& goal) { onGoal(goal); }, false),
+      server_(handle, names::kPlanPushAction,
+              [this](const PlanPushGoalConstPtr& goal) { onGoal(goal); }),
       diagnostics_(handle, "planner", [this](auto& status) { reportDiagnostics(status); }) {
   plan_ = handle_.advertise<Plan>(names::kPlan.name, names::kPlan.queue_size, true);
   plan_markers_ = handle_.advertise<MarkerArray>(names::kPlanMarkers.name,

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Nodes are killed in the middle of a task; roslaunch starts them again."""
+"""Nodes are killed or hang in the middle of a task; roslaunch starts dead ones again."""
 
+import contextlib
 import os
-import signal
+import sqlite3
 import sys
 
 import rospy
@@ -16,25 +17,6 @@ from casepush.msg import PushObjectResult
 
 class DrillNodesTest(drill.Drill):
 
-    def kill(self, node):
-        """Kills a node and waits until it is there again."""
-        process = drill.process_of(node)
-        os.kill(process, signal.SIGKILL)
-
-        def is_back():
-            try:
-                return drill.process_of(node) != process
-            except OSError:
-                return False
-
-        return is_back
-
-    def expect_next_task_succeeds(self):
-        self.await_nodes()
-        self.start_task()
-        result = self.finish_task()
-        self.assertEqual(result.status, PushObjectResult.SUCCEEDED, result.explanation)
-
     def test_only_the_executor_commands_the_base(self):
         publishers = dict(rospy.get_master().getSystemState()[2][0])
         self.assertEqual(publishers["/cmd_vel"], ["/executor_node"])
@@ -42,38 +24,74 @@ class DrillNodesTest(drill.Drill):
     def test_killed_planner(self):
         self.start_task()
         self.wait_phase("approach", "dock", "push")
-        is_back = self.kill("planner_node")
-        result = self.finish_task()
-        self.assertEqual(result.status, PushObjectResult.PLANNER_GONE, result.explanation)
+        is_back = drill.kill("planner_node")
+        self.finish_task(PushObjectResult.PLANNER_GONE)
         harness.wait_until(is_back, what="a new planner")
+        self.expect_next_task_succeeds()
+
+    def test_planner_hangs(self):
+        self.start_task()
+        self.wait_phase("push")
+        with drill.suspended("planner_node"):
+            self.place(chair_1=(-0.3, -1.0, 1.0))  # What it has planned is of no use any more.
+            self.finish_task(PushObjectResult.PLANNER_GONE)
         self.expect_next_task_succeeds()
 
     def test_killed_learner(self):
         self.start_task()
         self.wait_phase("push")
-        is_back = self.kill("learner_node")
-        result = self.finish_task()
-        self.assertEqual(result.status, PushObjectResult.SUCCEEDED, result.explanation)
+        is_back = drill.kill("learner_node")
+        self.finish_task()
         harness.wait_until(is_back, what="a new learner")
 
     def test_killed_perception(self):
         self.start_task()
         self.wait_phase("push")
-        is_back = self.kill("perception_node")
-        result = self.finish_task()
-        if result.status != PushObjectResult.SUCCEEDED:
-            self.assertEqual(result.status, PushObjectResult.STOPPED, result.explanation)
-            self.assertIn("is perception gone?", result.explanation)
+        is_back = drill.kill("perception_node")
+        self.finish_task(PushObjectResult.SUCCEEDED, PushObjectResult.STOPPED,
+                         explanation="is perception gone?")
         harness.wait_until(is_back, what="a new perception")
+        self.expect_next_task_succeeds()
 
     def test_killed_executor(self):
         self.start_task()
         self.wait_phase("push")
-        is_back = self.kill("executor_node")
+        is_back = drill.kill("executor_node")
         self.expect_still(is_told_to=False)
         harness.wait_until(is_back, what="a new executor")
         harness.wait_until(lambda: self.push_object.get_state() == GoalStatus.LOST,
                            what="the client to hear that the goal is lost")
+        self.expect_next_task_succeeds()
+
+    def test_killed_simulator(self):
+        self.start_task()
+        self.wait_phase("push")
+        self.motion.clear()
+        is_back = drill.kill("sim_node")
+        harness.wait_until(is_back, what="a new simulator")
+        self.motion.clear()
+        self.motion.wait()
+        self.finish_task(PushObjectResult.STOPPED, explanation="time")
+        self.await_nodes()
+        self.setUp()
+        self.expect_next_task_succeeds()
+
+    def test_the_case_base_is_cut_short(self):
+        copy = self.case_base + ".copy"
+        with contextlib.closing(sqlite3.connect(self.case_base)) as database:
+            database.execute("VACUUM INTO ?", (copy,))
+        self.start_task()
+        self.wait_phase("push")
+        os.truncate(self.case_base, os.path.getsize(self.case_base) // 2)
+        try:
+            self.end_task()
+        finally:
+            is_back = drill.kill("learner_node")
+            for suffix in ("-wal", "-shm"):
+                if os.path.exists(self.case_base + suffix):
+                    os.remove(self.case_base + suffix)
+            os.replace(copy, self.case_base)
+        harness.wait_until(is_back, what="a new learner")
         self.expect_next_task_succeeds()
 
 

@@ -3,8 +3,6 @@
 factor 1."""
 
 import bisect
-import os
-import signal
 import sys
 
 import rospy
@@ -74,24 +72,16 @@ class StopTimesTest(drill.Drill):
 
     def test_when_perception_stands_still(self):
         self.start_push("push")
-        process = drill.process_of("perception_node")
         event_s = self.now()
-        os.kill(process, signal.SIGSTOP)
-        try:
+        with drill.suspended("perception_node"):
             self.expect_stop("perception stands still", event_s)
-        finally:
-            os.kill(process, signal.SIGCONT)
 
     def test_when_perception_and_tf_fall_silent_together(self):
         self.start_push("push")
-        process = drill.process_of("perception_node")
         event_s = self.now()
-        os.kill(process, signal.SIGSTOP)
-        self.relay.tf_frozen = True
-        try:
+        with drill.suspended("perception_node"):
+            self.relay.tf_frozen = True
             self.expect_stop("perception and TF", event_s)
-        finally:
-            os.kill(process, signal.SIGCONT)
 
     def test_when_the_object_is_out_of_sight_during_a_push(self):
         self.start_push("push")
@@ -108,19 +98,15 @@ class StopTimesTest(drill.Drill):
     def test_when_the_executor_dies(self):
         self.start_push("push")
         event_s = self.now()
-        os.kill(drill.process_of("executor_node"), signal.SIGKILL)
+        drill.kill("executor_node")
         self.expect_stop("executor killed", event_s, brakes_itself=True)
         self.await_nodes()
 
     def test_when_the_executor_stands_still(self):
         self.start_push("push")
-        process = drill.process_of("executor_node")
         event_s = self.now()
-        os.kill(process, signal.SIGSTOP)
-        try:
+        with drill.suspended("executor_node"):
             self.expect_stop("executor stands still", event_s, brakes_itself=True)
-        finally:
-            os.kill(process, signal.SIGCONT)
 
     def test_when_something_unknown_is_in_the_way(self):
         contacts = harness.Recorder("contacts", BodyContactArray)

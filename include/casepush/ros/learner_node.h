@@ -1,7 +1,6 @@
 #pragma once
 
 #include <actionlib/client/simple_action_client.h>
-#include <actionlib/server/simple_action_server.h>
 #include <casepush/ExecutePushAction.h>
 #include <casepush/ExecutedPush.h>
 #include <casepush/ExportCases.h>
@@ -22,6 +21,7 @@
 #include "casepush/execution/exploration.h"
 #include "casepush/ros/demonstration_server.h"
 #include "casepush/ros/diagnostics.h"
+#include "casepush/ros/goal_server.h"
 #include "casepush/ros/node_parameters.h"
 #include "casepush/ros/object_watch.h"
 #include "casepush/world/map.h"
@@ -40,7 +40,7 @@ class LearnerNode {
   LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handle);
 
  private:
-  using Server = actionlib::SimpleActionServer<LearnObjectAction>;
+  using Server = GoalServer<LearnObjectAction>;
   using Client = actionlib::SimpleActionClient<ExecutePushAction>;
 
   /// One run of learn_object.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <actionlib/server/simple_action_server.h>
 #include <casepush/PlanPushAction.h>
 #include <casepush/PushCaseArray.h>
 #include <casepush/PushableObjectArray.h>
@@ -15,6 +14,7 @@
 
 #include "casepush/planning/push_planner.h"
 #include "casepush/ros/diagnostics.h"
+#include "casepush/ros/goal_server.h"
 #include "casepush/ros/map_source.h"
 #include "casepush/ros/node_parameters.h"
 
@@ -29,7 +29,7 @@ class PlannerNode {
   PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handle);
 
  private:
-  using Server = actionlib::SimpleActionServer<PlanPushAction>;
+  using Server = GoalServer<PlanPushAction>;
 
   void onCases(const PushCaseArray& message);
   void onObjects(const PushableObjectArray& message);
