@@ -36,9 +36,10 @@ function(casepush_unit_test file)
                        ENVIRONMENT "${CASEPUSH_TEST_ENVIRONMENT}")
 endfunction()
 
-# casepush_ros_test(sim_node.test TIMEOUT 60): a rostest file under test/ros.
+# casepush_ros_test(sim_node.test TIMEOUT 60): a rostest file under test/ros. Tests with the same LOCK never
+# run at the same time.
 function(casepush_ros_test file)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;LOCK" "" ${ARGN})
   if(NOT CATKIN_ENABLE_TESTING)
     return()
   endif()
@@ -50,7 +51,7 @@ function(casepush_ros_test file)
                    --pkgdir=${PROJECT_SOURCE_DIR} --package=casepush
                    --results-filename ${file}.xml --results-base-dir ${PROJECT_BINARY_DIR}/test_results
                    ${PROJECT_SOURCE_DIR}/test/ros/${file})
-  set_tests_properties(ros/${file} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
+  set_tests_properties(ros/${file} PROPERTIES TIMEOUT ${ARG_TIMEOUT} RESOURCE_LOCK "${ARG_LOCK}"
                        ENVIRONMENT "${CASEPUSH_TEST_ENVIRONMENT}")
 endfunction()
 

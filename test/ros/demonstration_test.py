@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import unittest
 
 import actionlib
 import rosbag
@@ -17,10 +16,10 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 import harness
-from casepush.msg import (ExecutePushAction, ExecutePushGoal, ExecutePushResult, ExecutorState,
-                          LearnObjectAction, LearnObjectGoal, LearnObjectResult, PushCase,
-                          PushCaseArray, PushableObjectArray)
+from casepush.msg import (ExecutePushGoal, ExecutePushResult, LearnObjectAction, LearnObjectGoal,
+                          LearnObjectResult, PushCase)
 from casepush.srv import StartDemonstration, StopDemonstration
+from pushing import PushingTest
 
 RATE_HZ = 20
 AXIS_X, DEAD_MAN = 1, 4
@@ -40,20 +39,17 @@ def write_joy_bag(file, strokes):
                 i += 1
 
 
-class DemonstrationTest(unittest.TestCase):
+class DemonstrationTest(PushingTest):
 
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.folder = tempfile.mkdtemp()
-        cls.cases = harness.Recorder("cases", PushCaseArray)
-        cls.objects = harness.Recorder("objects", PushableObjectArray)
-        cls.commands = harness.Recorder("cmd_vel", Twist)
-        cls.states = harness.Recorder("executor/state", ExecutorState)
         cls.learner = harness.start_node("learner_node", "_world:=open_floor",
                                          f"_case_base:={cls.folder}/cases.db")
-        cls.start = rospy.ServiceProxy("demonstration/start", StartDemonstration)
-        cls.stop = rospy.ServiceProxy("demonstration/stop", StopDemonstration)
-        cls.start.wait_for_service(20.0)
+        cls.begin = rospy.ServiceProxy("demonstration/start", StartDemonstration)
+        cls.finish = rospy.ServiceProxy("demonstration/stop", StopDemonstration)
+        cls.begin.wait_for_service(20.0)
         cls.cases.wait()
         cls.objects.wait(lambda m: any(o.id == harness.OBJECT for o in m.objects))
 
@@ -69,14 +65,14 @@ class DemonstrationTest(unittest.TestCase):
                        timeout=60.0, stdin=subprocess.DEVNULL)
 
     def test_a_refusals_say_what_to_do(self):
-        answer = self.stop()
+        answer = self.finish()
         self.assertFalse(answer.success)
         self.assertIn("no demonstration is under way", answer.message)
-        answer = self.start("piano_1")
+        answer = self.begin("piano_1")
         self.assertFalse(answer.success)
         self.assertIn("piano_1", answer.message)
-        self.assertTrue(self.start(harness.OBJECT).success)
-        answer = self.stop()
+        self.assertTrue(self.begin(harness.OBJECT).success)
+        answer = self.finish()
         self.assertFalse(answer.success)
         self.assertRegex(answer.message, "did not move|was not seen")
 
@@ -86,12 +82,12 @@ class DemonstrationTest(unittest.TestCase):
         self.assertEqual([m for _, m in self.commands.all() if not harness.is_zero(m)], [])
 
     def test_c_a_push_by_hand_becomes_a_case(self):
-        self.assertTrue(self.start(harness.OBJECT).success)
+        self.assertTrue(self.begin(harness.OBJECT).success)
         self.play((0.5, 0.0, True), (3.6, 0.9, True), (0.3, 0.0, False))
         answers = []
 
         def stopped():
-            answers.append(self.stop())
+            answers.append(self.finish())
             return answers[-1].success or "rest yet" not in answers[-1].message
 
         harness.wait_until(stopped, 20.0, "the chair to rest")
@@ -109,29 +105,28 @@ class DemonstrationTest(unittest.TestCase):
         client = actionlib.SimpleActionClient("learn_object", LearnObjectAction)
         harness.wait_until(client.action_client.wait_for_server, what="learn_object")
         client.send_goal(LearnObjectGoal(object_id=harness.OBJECT, cases=1, practices=3, seed=1))
-        self.assertFalse(self.start(harness.OBJECT).success)
+        self.assertFalse(self.begin(harness.OBJECT).success)
         result = harness.result_of(client, 90.0)
         self.assertEqual(result.status, LearnObjectResult.DONE, result.explanation)
         self.cases.wait(lambda m: [c.observation_count for c in m.cases] == [3])
         self.assertEqual(self.cases.last().cases[0].origin, PushCase.DEMONSTRATED)
 
     def test_e_goals_are_refused_while_somebody_drives(self):
-        client = actionlib.SimpleActionClient("execute_push", ExecutePushAction)
-        harness.wait_until(client.action_client.wait_for_server, what="execute_push")
+        self.await_nodes()
         publisher = rospy.Publisher("teleop_cmd_vel", Twist, queue_size=1)
         harness.wait_until(lambda: publisher.get_num_connections() > 0, what="the executor")
 
         def driven():
             publisher.publish(Twist())
-            return self.states.last().phase == "teleop"
+            return self.state.last().phase == "teleop"
 
         harness.wait_until(driven, what="teleop")
         publisher.publish(Twist())
-        client.send_goal(ExecutePushGoal(object_id=harness.OBJECT))
-        result = harness.result_of(client)
+        self.execute_push.send_goal(ExecutePushGoal(object_id=harness.OBJECT))
+        result = harness.result_of(self.execute_push)
         self.assertEqual(result.status, ExecutePushResult.BUSY, result.explanation)
         self.assertIn("driven by hand", result.explanation)
-        self.states.wait(lambda m: m.phase == "idle")
+        self.state.wait(lambda m: m.phase == "idle")
 
     def test_f_the_keyboard_drives(self):
         wanted = harness.Recorder("teleop_cmd_vel", Twist)

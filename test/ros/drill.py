@@ -136,8 +136,12 @@ class Drill(PushingTest):
     def wait_phase(self, *phases, patience_s=40.0):
         """Waits for the executor to come into a phase; it may have left it again already."""
         self.state.clear()
-        harness.wait_until(lambda: any(m.phase in phases for _, m in self.state.all()), patience_s,
-                           " or ".join(phases))
+        try:
+            harness.wait_until(lambda: any(m.phase in phases for _, m in self.state.all()),
+                               patience_s, " or ".join(phases))
+        except AssertionError as error:
+            seen = [f"{m.phase}: {m.description}" for _, m in self.state.all()]
+            raise AssertionError(f"{error}; instead: {list(dict.fromkeys(seen))}") from None
 
     def expect_still(self, is_told_to=True):
         """The base comes to a stand within 2 s and stays there, as told."""

@@ -5,22 +5,17 @@ import math
 import signal
 import sys
 import time
-import unittest
 
-import actionlib
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from geometry_msgs.msg import Pose2D, Twist
+from geometry_msgs.msg import Pose2D
 from nav_msgs.msg import Odometry
-from std_srvs.srv import Trigger
 
 import harness
-from casepush.msg import (BodyPose, ExecutedPush, ExecutePushAction, ExecutePushGoal,
-                          ExecutePushResult, ExecutorState, Octomap, PushableObjectArray,
-                          PushCaseArray, PushObjectAction, PushObjectGoal, PushObjectResult,
-                          TrialPush)
-from casepush.srv import SetPoses
+from casepush.msg import (ExecutedPush, ExecutePushGoal, ExecutePushResult, ExecutorState,
+                          PushCaseArray, PushObjectGoal, PushObjectResult, TrialPush)
+from pushing import PushingTest
 
 WORLD = "_world:=open_floor"
 # Within this wall time after an event (at real-time factor 1) no command moves the base any more.
@@ -31,29 +26,19 @@ STALE_S = 0.2
 SLACK_S = 0.1
 
 
-class ExecutorNodeTest(unittest.TestCase):
+class ExecutorNodeTest(PushingTest):
 
     @classmethod
     def setUpClass(cls):
         cls.sim = harness.start_node("sim_node", WORLD, "_real_time_factor:=1.0")
         cls.perception = harness.start_node("perception_node", WORLD)
         cls.planner = harness.start_node("planner_node", WORLD)
-        cls.commands = harness.Recorder("cmd_vel", Twist)
-        cls.objects = harness.Recorder("objects", PushableObjectArray)
+        super().setUpClass()
         cls.odometry = harness.Recorder("odom", Odometry)
-        cls.reports = harness.Recorder("push_reports", ExecutedPush)
-        cls.state = harness.Recorder("executor/state", ExecutorState)
         cls.fake_odometry = rospy.Publisher("odom", Odometry, queue_size=1)
-        cls.cases = rospy.Publisher("cases", PushCaseArray, queue_size=1, latch=True)
-        cls.push_object = actionlib.SimpleActionClient("push_object", PushObjectAction)
-        cls.execute_push = actionlib.SimpleActionClient("execute_push", ExecutePushAction)
-        for client in (cls.push_object, cls.execute_push):
-            harness.wait_until(client.action_client.wait_for_server, what="the executor's actions")
-        harness.Recorder("map/octomap", Octomap).wait()
+        cls.fake_cases = rospy.Publisher("cases", PushCaseArray, queue_size=1, latch=True)
+        cls.await_nodes()
         harness.wait_until(cls.executor_knows_map_and_robot, what="the executor to get ready")
-        rospy.wait_for_service("sim/set_pose", timeout=20)
-        cls.set_pose = rospy.ServiceProxy("sim/set_pose", SetPoses)
-        cls.stop = rospy.ServiceProxy("stop", Trigger)
 
     @classmethod
     def executor_knows_map_and_robot(cls):
@@ -68,15 +53,8 @@ class ExecutorNodeTest(unittest.TestCase):
             harness.end_node(process)
 
     def setUp(self):
-        self.cases.publish(harness.made_up_cases())
-        response = self.set_pose([BodyPose(harness.OBJECT, Pose2D(0.0, 0.0, 0.0)),
-                                  BodyPose("robot", Pose2D(-1.6, 0.6, 0.0))])
-        self.assertTrue(response.success, response.message)
-        # Perception may have just been started again.
-        self.objects.clear()
-        self.objects.wait(lambda m: m.objects and not m.objects[0].moving and math.hypot(
-            m.objects[0].pose.pose.position.x, m.objects[0].pose.pose.position.y) < 0.05)
-        self.commands.clear()
+        self.fake_cases.publish(harness.made_up_cases())
+        self.set_scene()
 
     def tearDown(self):
         self.stop()
@@ -92,16 +70,8 @@ class ExecutorNodeTest(unittest.TestCase):
         return PushObjectGoal(object_id=harness.OBJECT, goal=harness.pose(2.5, 1.5, 0.5), seed=1)
 
     def start_moving(self, client, goal):
-        """Sends a goal, again if the executor has not heard of the cases yet."""
-        def attempt():
-            client.send_goal(goal)
-            harness.wait_until(lambda: client.get_state() != GoalStatus.PENDING, what="an answer")
-            state = client.get_state()
-            self.assertIn(state, (GoalStatus.ACTIVE, GoalStatus.REJECTED))
-            return state == GoalStatus.ACTIVE
-
-        harness.wait_until(attempt, what="a goal to be accepted")
-        self.commands.wait(lambda command: math.hypot(command.linear.x, command.linear.y) > 0.1)
+        self.start(client, goal)
+        self.wait_moving()
 
     def expect_standstill(self, event, within_s):
         """No command later than `within_s` after the event moves the base, and one says zero."""
@@ -223,7 +193,7 @@ class ExecutorNodeTest(unittest.TestCase):
         self.assertEqual(result.status, PushObjectResult.INVALID_GOAL, result.explanation)
 
     def test_refuses_to_push_without_cases(self):
-        self.cases.publish(PushCaseArray())
+        self.fake_cases.publish(PushCaseArray())
         harness.wait_until(lambda: self.result(self.push_object, self.push_goal()).status ==
                            PushObjectResult.NOT_READY, what="the cases to be gone")
         self.assertIn("no cases", self.push_object.get_result().explanation)

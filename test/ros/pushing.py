@@ -22,7 +22,7 @@ def speeds(twist):
 
 
 class PushingTest(unittest.TestCase):
-    """Knows the nodes' interfaces. Whoever sets more up starts nodes first and then calls this."""
+    """Knows the nodes' interfaces. Whether there are nodes is up to await_nodes()."""
 
     @classmethod
     def setUpClass(cls):
