@@ -16,12 +16,14 @@ namespace {
 
 constexpr double kControlPeriodS = 0.02;
 constexpr int kTruthEvery = 5;  // Ground truth at 10 Hz keeps bags small.
-// A controller counts as present for this long after its last command (simulated time).
+// A controller counts as present for this long after its last command (simulated time); longer if
+// that was to move: nobody leaves a robot moving, so it is only late.
 constexpr double kCommandedS = 0.25;
-// The same for the newest tracked poses, which may lag this far behind without holding up the
-// world.
-constexpr double kTrackedS = 0.5;
+constexpr double kMovingS = 1.0;
+// Tracked poses may lag this far behind without holding up the world. Perception counts as present
+// for longer than the executor waits for it: otherwise that time would pass in a moment.
 constexpr double kTrackingLagS = 0.07;
+constexpr double kTrackedS = 3.0;
 // At full speed: never slower than real time for a slow controller, and some rest for the other
 // nodes while nobody commands.
 constexpr double kWaitCommandedS = kControlPeriodS;
@@ -198,7 +200,9 @@ void SimNode::publishSurvey() {
   survey_.publish(toMessage(points, simulator_.time()));
 }
 
-bool SimNode::isCommanded() const { return simulator_.time() - last_command_s_ < kCommandedS; }
+bool SimNode::isCommanded() const {
+  return simulator_.time() - last_command_s_ < (commanded_to_move_ ? kMovingS : kCommandedS);
+}
 
 bool SimNode::nodesKeepUp() const {
   const double lag_s = simulator_.time() - last_objects_s_;

@@ -55,6 +55,7 @@ void SimNode::onCommand(const geometry_msgs::Twist& message) {
 void SimNode::command(const Twist2& robot_twist) {
   simulator_.setCommand(robot_twist);
   command_arrived_ = true;
+  commanded_to_move_ = robot_twist.speed() > 0.0 || robot_twist.wz_rps != 0.0;
   last_command_s_ = simulator_.time();
 }
 

@@ -86,6 +86,7 @@ class SimNode {
 
   std::int64_t period_ = 0;  ///< Control periods that are over since the start or reset.
   bool command_arrived_ = false;
+  bool commanded_to_move_ = false;
   double last_command_s_ = -1e9;
   double last_objects_s_ = -1e9;
   int refused_commands_ = 0;
