@@ -31,8 +31,10 @@ def moves(twist):
 
 
 def process_of(node):
-    """The id of a node's process, also if roslaunch has started it anew."""
-    node_uri = rospy.get_master().lookupNode("/" + node)[2]
+    """The id of a node's process, also if roslaunch has started it anew. OSError: it is gone."""
+    code, message, node_uri = rospy.get_master().lookupNode("/" + node)
+    if code != 1:
+        raise ConnectionError(message)
     return xmlrpc.client.ServerProxy(node_uri).getPid("/drill")[2]
 
 
@@ -68,6 +70,7 @@ class Drill(PushingTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.relay = fault_relay.FaultRelay()
+        cls.relay.scans_frozen = True
         cls.motion = harness.Recorder("raw/odom", Odometry)
         cls.await_nodes()
         importer = rospy.ServiceProxy("cases/import", ImportCases)
@@ -85,7 +88,10 @@ class Drill(PushingTest):
 
     def setUp(self):
         self.relay.mend()
+        # Or a live map would show the chair where it was put before it was seen there.
+        self.relay.scans_frozen = True
         self.set_scene(box_1=(4.4, 4.4, 0.0))
+        self.relay.scans_frozen = False
         self.motion.clear()
         self.reports.clear()
 
@@ -106,11 +112,12 @@ class Drill(PushingTest):
 
     def finish_task(self, *statuses, explanation=""):
         """Expects the task to end in one of these ways, the robot to stand and no case to be
-        lost."""
+        lost. Returns in which."""
         counts = self.case_counts()
-        self.end_task(*statuses, explanation=explanation)
+        status = self.end_task(*statuses, explanation=explanation)
         for before, after in zip(counts, self.case_counts()):
             self.assertGreaterEqual(after, before)
+        return status
 
     def end_task(self, *statuses, explanation=""):
         """The same with a case base that is damaged."""
@@ -123,6 +130,7 @@ class Drill(PushingTest):
         self.assertIn(result.status, statuses or [PushObjectResult.SUCCEEDED], result.explanation)
         if result.status != PushObjectResult.SUCCEEDED:
             self.assertIn(explanation, result.explanation)
+        return result.status
 
     def expect_next_task_succeeds(self):
         self.await_nodes()
