@@ -6,6 +6,7 @@
 #include "casepush/execution/exploration.h"
 #include "casepush/execution/push_ground.h"
 #include "execution/fake_world.h"
+#include "execution/learnt_cases.h"
 
 namespace casepush {
 namespace {
@@ -78,60 +79,28 @@ TEST(PushGround, tellsWhetherWallsHadAPart) {
   EXPECT_FALSE(open.wasFree(Pose2(2.5, 0.0, 0.0), straightCourse(0.4)));
 }
 
-Case withObservation(Case push_case, const Pose2& start_T_object) {
-  const OutcomeStatistics now = addObservation({push_case.start_outcome, push_case.effective_count},
-                                               start_T_object, CovarianceFloor{});
-  push_case.start_outcome = now.start_outcome;
-  push_case.effective_count = now.effective_count;
-  ++push_case.observation_count;
-  return push_case;
-}
-
 /// Learns in the fake world without ever putting anything anywhere.
-struct DrivingLearner {
-  explicit DrivingLearner(std::uint64_t seed, int cases, int practices)
-      : exploration(test::fakeObject(), test::fakeRobot(), options(seed, cases, practices)),
+struct DrivingLearner : test::LearntCases {
+  DrivingLearner(std::uint64_t seed, int case_count, int practices)
+      : exploration(test::fakeObject(), test::fakeRobot(),
+                    test::explorationOptions(case_count, practices, seed)),
         world(seed) {
     world.scatter = 0.05;
-  }
-
-  static ExplorationOptions options(std::uint64_t seed, int cases, int practices) {
-    ExplorationOptions options;
-    options.seed = seed;
-    options.cases = cases;
-    options.practices = practices;
-    return options;
   }
 
   void once(const Exploration::Trial& trial) {
     ExecutePush push =
         trial.case_id
-            ? ExecutePush("chair_1", known.at(*trial.case_id), test::fakeRobot(), test::detour, {})
+            ? ExecutePush("chair_1", cases.at(*trial.case_id), test::fakeRobot(), test::detour, {})
             : ExecutePush("chair_1", trial.configuration, test::fakeRobot(), test::detour, {});
     test::run(push, world);
-    const PushReport& report = *push.report();
-    const auto verdict = exploration.judge(trial, report, &floor);
-    if (verdict == Exploration::Verdict::kStoreCase) {
-      known[++last_id] = report.recorded;
-      known[last_id].id = last_id;
-      exploration.stored(last_id);
-    } else if (verdict == Exploration::Verdict::kObserve) {
-      Case& updated = known.at(*trial.case_id);
-      updated = withObservation(updated, report.recorded.start_outcome.mean);
-      if (!exploration.observed(updated)) {
-        known.erase(*trial.case_id);
-      }
-    } else if (verdict == Exploration::Verdict::kDropCase) {
-      known.erase(*trial.case_id);
-    }
+    judge(exploration, trial, *push.report(), &floor);
     ++pushes;
   }
 
   PushGround floor = ground();
   Exploration exploration;
   test::FakeWorld world;
-  std::map<std::int64_t, Case> known;
-  std::int64_t last_id = 0;
   int pushes = 0;
 };
 
@@ -170,7 +139,7 @@ TEST(ExplorationDrive, bringsTheObjectBackFromAWall) {
 
 TEST(ExplorationDrive, triesSomethingElseAfterAPushThatCanNotBeReached) {
   DrivingLearner learner(2, 2, 5);
-  while (learner.known.empty()) {
+  while (learner.cases.empty()) {
     learner.once(*learner.exploration.next(learner.floor, learner.world.object));
   }
   learner.world.object = Pose2();

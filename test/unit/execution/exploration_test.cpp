@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <functional>
-#include <map>
 
 #include "../../../src/execution/push_predictor.h"
-#include "casepush/cases/outcome_statistics.h"
 #include "casepush/common/input_error.h"
 #include "execution/fake_world.h"
+#include "execution/learnt_cases.h"
 
 namespace casepush {
 namespace {
@@ -17,24 +16,11 @@ namespace {
 using Verdict = Exploration::Verdict;
 
 ExplorationOptions options(int cases, int practices, std::uint64_t seed = 1) {
-  ExplorationOptions options;
-  options.cases = cases;
-  options.practices = practices;
-  options.seed = seed;
-  return options;
-}
-
-Case withObservation(Case push_case, const Pose2& start_T_object) {
-  const OutcomeStatistics now = addObservation({push_case.start_outcome, push_case.effective_count},
-                                               start_T_object, CovarianceFloor{});
-  push_case.start_outcome = now.start_outcome;
-  push_case.effective_count = now.effective_count;
-  ++push_case.observation_count;
-  return push_case;
+  return test::explorationOptions(cases, practices, seed);
 }
 
 // The loop of a caller: executes pushes in the fake world and stores in memory.
-struct Learner {
+struct Learner : test::LearntCases {
   explicit Learner(const ExplorationOptions& given)
       : exploration(test::fakeObject(), test::fakeRobot(), given), seed(given.seed) {}
 
@@ -48,22 +34,7 @@ struct Learner {
   }
 
   Verdict judge(const Exploration::Trial& trial, const PushReport& report) {
-    const Verdict verdict = exploration.judge(trial, report);
-    if (verdict == Verdict::kStoreCase) {
-      const std::int64_t id = ++last_id;
-      cases[id] = report.recorded;
-      cases[id].id = id;
-      exploration.stored(id);
-    } else if (verdict == Verdict::kObserve) {
-      Case& known = cases.at(*trial.case_id);
-      known = withObservation(known, report.recorded.start_outcome.mean);
-      if (!exploration.observed(known)) {
-        cases.erase(*trial.case_id);
-      }
-    } else if (verdict == Verdict::kDropCase) {
-      cases.erase(*trial.case_id);
-    }
-    return verdict;
+    return LearntCases::judge(exploration, trial, report);
   }
 
   void all(int max_pushes) {
@@ -85,8 +56,6 @@ struct Learner {
 
   Exploration exploration;
   std::uint64_t seed;
-  std::map<std::int64_t, Case> cases;
-  std::int64_t last_id = 0;
   int pushes = 0;
   double scatter = 0.05;
 };
