@@ -20,6 +20,7 @@ add_message_files(FILES
   PushSample.msg
   PushableObject.msg
   PushableObjectArray.msg
+  TaskSummary.msg
   TrialPush.msg)
 add_service_files(FILES
   ExportCases.srv

@@ -153,6 +153,7 @@ void PushTask::Data::replan(ReplanCause cause, const std::string& why,
                             const Observation& observation) {
   ++progress.replans;
   ++progress.replan_causes[cause];
+  progress.replan_history.push_back(cause);
   progress.replan_reasons.push_back(why);
   if (!isLimitReached()) {
     rest.reset();

@@ -1,8 +1,11 @@
 #include "casepush/ros/activity.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
+#include "casepush/ros/conversions.h"
 #include "casepush/ros/push_conversions.h"
 
 namespace casepush {
@@ -32,6 +35,13 @@ void end(GoalHandle& goal, ActivityEnd how, bool success, const Result& result) 
 }
 
 std::uint32_t count(int value) { return static_cast<std::uint32_t>(value); }
+
+/// "no_progress": as the constants of the result in lower case.
+std::string statusName(ActivityEnd how, PushTaskStatus status) {
+  std::string name = how == ActivityEnd::kStopped ? "stopped" : toString(status);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
 
 }  // namespace
 
@@ -67,6 +77,10 @@ PushTaskServices PushObjectActivity::withReports(PushTaskServices services, Repo
     context.plan_number = progress.plans;
     context.push_index = progress.push_index;
     context.adapted = task_goal_.adapt && report.case_id > 0 && isObservation(report);
+    if (progress.replan_history.size() > reported_replans_) {
+      context.replan_cause = toString(progress.replan_history.back());
+      reported_replans_ = progress.replan_history.size();
+    }
     sink(report, context);
   };
   return services;
@@ -118,7 +132,8 @@ void PushObjectActivity::publishFeedback() {
   goal_.publishFeedback(feedback);
 }
 
-void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation, double now_s) {
+PushObjectResult PushObjectActivity::result(ActivityEnd how, const std::string& explanation,
+                                            double now_s) const {
   const PushTaskProgress& progress = task_.progress();
   PushObjectResult result;
   result.status = how == ActivityEnd::kStopped
@@ -133,7 +148,41 @@ void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation,
   result.rejected_predictions = count(progress.rejected_predictions);
   result.plan_length = progress.plan_length_m;
   result.duration = start_stamp_s_ < 0.0 ? 0.0 : now_s - start_stamp_s_;
-  end(goal_, how, task_.status() == PushTaskStatus::kSucceeded, result);
+  return result;
+}
+
+std::optional<TaskSummary> PushObjectActivity::summary(ActivityEnd how,
+                                                       const std::string& explanation,
+                                                       double now_s) const {
+  const PushTaskProgress& progress = task_.progress();
+  const PushObjectResult ended = result(how, explanation, now_s);
+  TaskSummary summary;
+  summary.goal_id = goalId();
+  summary.object_id = task_goal_.object_id;
+  summary.goal = toMessage(task_goal_.map_T_goal);
+  summary.position_tolerance = task_goal_.tolerance.position_m;
+  summary.yaw_tolerance = task_goal_.tolerance.yaw_rad;
+  summary.start_stamp = toRosTime(std::max(0.0, start_stamp_s_));
+  summary.status = statusName(how, task_.status());
+  summary.explanation = ended.explanation;
+  summary.position_error = ended.position_error;
+  summary.yaw_error = ended.yaw_error;
+  summary.plan_length = ended.plan_length;
+  summary.plans = ended.plans;
+  std::transform(progress.pushes_per_plan.begin(), progress.pushes_per_plan.end(),
+                 std::back_inserter(summary.pushes_of_plans), count);
+  summary.pushes = ended.pushes;
+  summary.clearing_pushes = count(progress.clearing_pushes);
+  summary.rejected_predictions = ended.rejected_predictions;
+  std::transform(progress.replan_history.begin(), progress.replan_history.end(),
+                 std::back_inserter(summary.replan_causes),
+                 [](ReplanCause cause) { return toString(cause); });
+  summary.replan_reasons = progress.replan_reasons;
+  return summary;
+}
+
+void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation, double now_s) {
+  end(goal_, how, task_.status() == PushTaskStatus::kSucceeded, result(how, explanation, now_s));
 }
 
 ExecutePushActivity::ExecutePushActivity(ExecutePushServer::GoalHandle goal, ExecutePush push,

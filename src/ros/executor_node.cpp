@@ -52,6 +52,8 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
                                                      names::kCommandVelocity.queue_size);
   reports_ =
       handle_.advertise<ExecutedPush>(names::kPushReports.name, names::kPushReports.queue_size);
+  summaries_ =
+      handle_.advertise<TaskSummary>(names::kTaskSummaries.name, names::kTaskSummaries.queue_size);
   state_ = handle_.advertise<ExecutorState>(names::kExecutorState.name,
                                             names::kExecutorState.queue_size, true);
   octomap_subscriber_ = handle_.subscribe(names::kOctomap.name, names::kOctomap.queue_size,
@@ -102,7 +104,9 @@ void ExecutorNode::onObjects(const PushableObjectArray& message) {
 
 void ExecutorNode::onOdometry(const nav_msgs::Odometry& message) {
   const double now_s = message.header.stamp.toSec();
-  if (now_s < last_stamp_s_ - kJumpBackS) {
+  // Against odometry alone: ticks without it go by the clock, which may be ahead of what is late.
+  const bool jumped_back = now_s < odometry_.header.stamp.toSec() - kJumpBackS;
+  if (jumped_back) {
     buffer_.clear();
     objects_.clear();
     objects_stamp_s_ = -1e9;
@@ -112,7 +116,7 @@ void ExecutorNode::onOdometry(const nav_msgs::Odometry& message) {
     }
   }
   odometry_ = message;
-  tick(now_s);
+  tick(jumped_back ? now_s : std::max(now_s, last_stamp_s_));
 }
 
 void ExecutorNode::checkTicks() {
@@ -239,6 +243,11 @@ void ExecutorNode::finish() {
   const std::unique_ptr<Activity> ended = std::move(activity_);
   last_end_ = end_explanation_.empty() ? ended->describe() : end_explanation_;
   publishState(last_stamp_s_);
+  if (std::optional<TaskSummary> summary = ended->summary(end_, end_explanation_, last_stamp_s_)) {
+    summary->header.stamp = toRosTime(last_stamp_s_);
+    summary->header.frame_id = names::kMapFrame;
+    summaries_.publish(*summary);
+  }
   ended->finish(end_, end_explanation_, last_stamp_s_);
 }
 
@@ -250,6 +259,7 @@ void ExecutorNode::publishReport(const PushReport& report, const ReportContext& 
   message.plan_number = static_cast<std::uint32_t>(context.plan_number);
   message.push_index = static_cast<std::uint32_t>(context.push_index);
   message.adapted = context.adapted;
+  message.replan_cause = context.replan_cause;
   reports_.publish(message);
 }
 

@@ -185,6 +185,10 @@ class Story:
         set_pose(request.goal.goal.pose, goal)
         self.write('/push_object/goal', request)
         plan_number, pushes = 0, 0
+        summary = msg.TaskSummary(goal_id=name, object_id=CHAIR, goal=pose2d(goal),
+                                  position_tolerance=0.5, yaw_tolerance=math.pi,
+                                  start_stamp=rospy.Time.from_sec(self.time_s),
+                                  status='succeeded', explanation='the goal is reached')
         while self.chair.distance_m(goal) > 0.45 and pushes < 60:
             plan_number += 1
             for index, case in enumerate(self.plan(goal), 1):
@@ -192,7 +196,15 @@ class Story:
                 bias_m = 0.25 if pushes == 3 else 0.0
                 if self.push(case, msg.ExecutorState.PUSHING_OBJECT, plan_number, index,
                              bias_m=bias_m):
+                    summary.replan_causes.append('prediction_rejected')
+                    summary.replan_reasons.append('the chair rests elsewhere than predicted')
                     break
+            else:
+                summary.replan_causes.append('ended_beside_goal')
+                summary.replan_reasons.append('the plan ended beside the goal')
+        if summary.replan_causes and len(summary.replan_causes) == plan_number:
+            del summary.replan_causes[-1], summary.replan_reasons[-1]  # The last plan succeeded.
+        self.write('/task_summaries', summary)
         result = msg.PushObjectActionResult()
         result.status.goal_id.id = name
         result.result = msg.PushObjectResult(status=msg.PushObjectResult.SUCCEEDED, pushes=pushes,

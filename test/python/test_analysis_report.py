@@ -63,6 +63,8 @@ def test_the_summary_tells_the_task_by_ground_truth(demo):
     assert summary['collisions'] == 1
     assert summary['replans'] == summary['tasks'][0]['plans'] - 1 >= 1
     assert sum(summary['tasks'][0]['consecutive_pushes']) == summary['pushes']
+    assert sum(summary['tasks'][0]['replan_causes'].values()) == summary['replans']
+    assert len(summary['tasks'][0]['replan_reasons']) == summary['replans']
     assert summary['tasks'][0]['tracking_rms_m'] == pytest.approx(0.01 * math.sqrt(2), rel=0.2)
     assert summary['missing'] == [] and summary['notes'] == []
 
@@ -93,6 +95,13 @@ def test_every_push_has_a_row(demo):
 
 
 def test_the_other_tables_agree_with_the_summary(demo):
+    task, = read_table(demo.results, 'tasks')
+    assert (task['object'], task['status'], task['success']) == (CHAIR, 'succeeded', 'true')
+    assert int(task['replans']) == demo.summary['replans']
+    replans = read_table(demo.results, 'replans')
+    assert len(replans) == demo.summary['replans']
+    for row in replans:
+        assert row['cause'].replace('_', ' ') in task['replan_causes'] and row['reason']
     assert len(read_table(demo.results, 'plans')) == demo.summary['tasks'][0]['plans']
     assert len(read_table(demo.results, 'cases')) == CASES
     collision, = read_table(demo.results, 'collisions')
@@ -150,7 +159,7 @@ def test_a_cut_off_bag_is_read_as_far_as_it_goes_and_left_alone(demo, tmp_path):
 
 
 def without(bag, folder, prefix):
-    """A copy of a bag without the topics that begin with `prefix`, analysed."""
+    """A copy of a bag without the topics that begin with `prefix` (or one of them), analysed."""
     part = folder / 'part.bag'
     with rosbag.Bag(str(bag)) as source, rosbag.Bag(str(part), 'w') as target:
         for topic, message, stamp in source.read_messages(raw=True):
@@ -160,7 +169,7 @@ def without(bag, folder, prefix):
 
 
 def test_an_unfinished_task_is_called_that(demo, tmp_path):
-    entry, = without(demo.bag, tmp_path, '/push_object/result').tasks
+    entry, = without(demo.bag, tmp_path, ('/push_object/result', '/task_summaries')).tasks
     assert entry.task.status == 'unfinished' and entry.success is False
     assert len(entry.pushes) == demo.summary['pushes']
 
@@ -168,8 +177,9 @@ def test_an_unfinished_task_is_called_that(demo, tmp_path):
 @pytest.mark.parametrize('dropped, missing', [
     ('/ground_truth/objects', 'ground_truth/objects: success and final error are unknown'),
     ('/executor/state', 'executor/state: times for planning and approach are unknown'),
-    ('/push_object', 'push_object/goal: goal and times'),
+    (('/push_object', '/task_summaries'), 'push_object/goal: goal and times'),
     ('/pl', 'plan: plans are not drawn'),
+    ('/task_summaries', 'task_summaries: why plans were given up is unknown'),
     ('/survey', 'survey: the room is not drawn'),
     ('/tf', "tf: the robot's path is not drawn"),
     ('/objects', 'objects: the tracked path is not drawn'),
@@ -179,6 +189,13 @@ def test_what_is_missing_is_said(demo, tmp_path, dropped, missing):
     analysis = without(demo.bag, tmp_path, dropped)
     assert [line for line in analysis.missing if line.startswith(missing)]
     assert 'Not recorded – ' + missing.replace("'", '&#39;') in report.render(analysis, {})
+
+
+def test_a_summary_makes_up_for_the_action(demo, tmp_path):
+    entry, = without(demo.bag, tmp_path, '/push_object').tasks
+    assert entry.task.status == 'succeeded' and entry.success is True
+    assert entry.task.position_tolerance_m == 0.5
+    assert len(entry.pushes) == demo.summary['pushes']
 
 
 def test_pushes_alone_are_enough_for_a_report(demo, tmp_path):

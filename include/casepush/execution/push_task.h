@@ -91,6 +91,7 @@ struct PushTaskProgress {
   int plans = 0;
   int replans = 0;  ///< Plans whose rest was given up for another plan.
   ReplanCounts replan_causes;
+  std::vector<ReplanCause> replan_history;  ///< The same in order, one for each re-plan.
   std::vector<std::string> replan_reasons;  ///< In words, one for each re-plan.
   /// Pushes made with each plan: all but the last plan were given up then. Plans of which no push
   /// was made count with 0.

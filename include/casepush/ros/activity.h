@@ -4,9 +4,11 @@
 #include <casepush/ExecutePushAction.h>
 #include <casepush/ExecutorState.h>
 #include <casepush/PushObjectAction.h>
+#include <casepush/TaskSummary.h>
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "casepush/execution/execute_push.h"
@@ -26,6 +28,7 @@ struct ReportContext {
   int plan_number = 0;
   int push_index = 0;
   bool adapted = false;
+  std::string replan_cause;  ///< Why the plan before this one was given up; with its first push.
 };
 using ReportSink = std::function<void(const PushReport&, const ReportContext&)>;
 
@@ -41,6 +44,13 @@ class Activity {
   virtual std::string describe() const = 0;
   virtual ExecutorState state() const = 0;  ///< Without header.
   virtual void publishFeedback() = 0;
+
+  /// What is to be recorded of it when it has ended, without header; nothing if it is no task.
+  virtual std::optional<TaskSummary> summary(ActivityEnd /*end*/,
+                                             const std::string& /*explanation*/,
+                                             double /*now_s*/) const {
+    return std::nullopt;
+  }
 
   /// Sends the action's result.
   virtual void finish(ActivityEnd end, const std::string& explanation, double now_s) = 0;
@@ -62,16 +72,20 @@ class PushObjectActivity : public Activity {
   std::string describe() const override;
   ExecutorState state() const override;
   void publishFeedback() override;
+  std::optional<TaskSummary> summary(ActivityEnd end, const std::string& explanation,
+                                     double now_s) const override;
   void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
 
  private:
   PushTaskServices withReports(PushTaskServices services, ReportSink sink);
+  PushObjectResult result(ActivityEnd end, const std::string& explanation, double now_s) const;
 
   PushObjectServer::GoalHandle goal_;
   PushTaskGoal task_goal_;
   PushTask task_;
   double start_stamp_s_ = -1.0;
   double last_t_squared_ = 0.0;
+  std::size_t reported_replans_ = 0;
 };
 
 /// The action execute_push.

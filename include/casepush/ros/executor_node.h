@@ -4,6 +4,7 @@
 #include <casepush/Octomap.h>
 #include <casepush/PushCaseArray.h>
 #include <casepush/PushableObjectArray.h>
+#include <casepush/TaskSummary.h>
 #include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
@@ -101,6 +102,7 @@ class ExecutorNode {
 
   ros::Publisher command_;
   ros::Publisher reports_;
+  ros::Publisher summaries_;
   ros::Publisher state_;
   ros::Subscriber octomap_subscriber_;
   ros::Subscriber cases_subscriber_;

@@ -35,6 +35,7 @@ constexpr Topic kCases{"cases", 1};          ///< Latched.
 constexpr Topic kOctomap{"map/octomap", 1};  ///< Latched.
 constexpr Topic kPlan{"plan", 1};            ///< Latched.
 constexpr Topic kPushReports{"push_reports", 1000};
+constexpr Topic kTaskSummaries{"task_summaries", 100};
 constexpr Topic kExecutorState{"executor/state", 10};  ///< Latched.
 
 // For RViz; all latched.

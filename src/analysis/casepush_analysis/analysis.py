@@ -1,5 +1,6 @@
 """Everything that is computed about one recording, in one place for tables and report."""
 
+from collections import Counter
 from dataclasses import dataclass
 from typing import Dict, List, Optional
 
@@ -30,8 +31,18 @@ class TaskAnalysis:
 
     @property
     def replans(self):
+        """As the executor counted them, or as plans and pushes tell."""
+        if self.task.replans is not None:
+            return len(self.task.replans)
         plans = len(self.solved_plans) or max((p.plan_number for p in self.pushes), default=0)
         return max(0, plans - 1)
+
+    @property
+    def replan_causes(self):
+        """How often each cause made a plan be given up; None if that was not recorded."""
+        if self.task.replans is None:
+            return None
+        return dict(sorted(Counter(r.cause for r in self.task.replans).items()))
 
     @property
     def completed_runs(self):
@@ -129,6 +140,8 @@ def missing(recording):
             (any(t.status != 'unknown' for t in recording.tasks), 'push_object/goal',
              'goal and times of the task are taken from the plans, its tolerance is assumed'),
             (recording.plans, 'plan', 'plans are not drawn, re-plans are counted from pushes'),
+            (all(t.replans is not None for t in recording.tasks), 'task_summaries',
+             'why plans were given up is unknown'),
             (recording.room is not None, 'survey', 'the room is not drawn'),
         ]
     return [f'{topic}: {consequence}' for present, topic, consequence in wanted if not present]

@@ -45,6 +45,7 @@ class Builder:
             ('PlanPushActionResult', ''): self._plan_result,
             ('PushObjectActionGoal', ''): self._task_goal,
             ('PushObjectActionResult', ''): self._task_result,
+            ('TaskSummary', ''): self._task_summary,
             ('LearnObjectActionGoal', ''): self._learn_goal,
             ('LearnObjectActionResult', ''): self._learn_result,
             ('PushCaseArray', ''): self._cases,
@@ -117,6 +118,13 @@ class Builder:
 
     def _task_result(self, message, stamp_s):
         _close(self._tasks.get(message.status.goal_id.id), message.result, stamp_s)
+
+    def _task_summary(self, message, stamp_s):
+        record = self._tasks.setdefault(message.goal_id, conversions.task_from_summary(message))
+        record.end_s, record.status, record.explanation = (stamp_s, message.status,
+                                                           message.explanation)
+        record.replans = conversions.replans(message)
+        record.clearing_pushes = message.clearing_pushes
 
     def _learn_goal(self, message, stamp_s):
         self._learning[message.goal_id.id] = records.LearningRecord(message.goal.object_id, stamp_s)

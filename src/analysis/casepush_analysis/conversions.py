@@ -113,6 +113,20 @@ def task(goal, stamp_s):
         yaw_tolerance_rad=goal.yaw_tolerance or DEFAULT_YAW_TOLERANCE_RAD, start_s=stamp_s)
 
 
+def task_from_summary(summary):
+    """casepush/TaskSummary; it knows nothing of the time before it began."""
+    return records.TaskRecord(
+        object_id=summary.object_id, map_goal=pose2d(summary.goal),
+        position_tolerance_m=finite(summary.position_tolerance),
+        yaw_tolerance_rad=finite(summary.yaw_tolerance), start_s=summary.start_stamp.to_sec())
+
+
+def replans(summary):
+    """casepush/TaskSummary."""
+    return [records.ReplanRecord(cause, reason)
+            for cause, reason in zip(summary.replan_causes, summary.replan_reasons)]
+
+
 def phase(message, stamp_s):
     """casepush/ExecutorState."""
     if message.activity == message.IDLE:

@@ -131,6 +131,16 @@ class TaskRecord:
     end_s: Optional[float] = None  # None: the recording ends first.
     status: str = 'unfinished'
     explanation: str = ''
+    replans: Optional[List['ReplanRecord']] = None  # None: the task's summary is not recorded.
+    clearing_pushes: int = 0  # To bring other objects out of the way.
+
+
+@dataclass
+class ReplanRecord:
+    """Why one plan was given up."""
+
+    cause: str  # "prediction_rejected", "left_tube", ...
+    reason: str  # In words.
 
 
 @dataclass

@@ -139,6 +139,36 @@ def plans(analysis):
         Column('explanation', 'explanation')], rows)
 
 
+def tasks(analysis):
+    rows = []
+    for entry in analysis.tasks:
+        error = entry.truth_error or entry.tracked_error
+        causes = entry.replan_causes
+        rows.append((
+            entry.number, entry.task.object_id, entry.task.status, entry.success,
+            len(entry.pushes), len(entry.plans) or None, entry.replans,
+            None if causes is None else ', '.join(
+                f'{count} {cause.replace("_", " ")}' for cause, count in causes.items()),
+            metrics.mean(entry.completed_runs),
+            error.position_m if error else None,
+            abs(math.degrees(error.yaw_rad)) if error else None,
+            entry.end_s - entry.task.start_s))
+    return Table('tasks', [
+        Column('task', 'task'), Column('object', 'object'), Column('status', 'ended as'),
+        Column('success', 'success'), Column('pushes', 'pushes'), Column('plans', 'plans'),
+        Column('replans', 're-plans'), Column('replan_causes', 'because of'),
+        Column('mean_pushes_before_replan', 'pushes in a row', 1),
+        Column('position_error_m', 'off by [m]', 3), Column('yaw_error_deg', 'off by [°]', 1),
+        Column('duration_s', 'time [s]', 1)], rows)
+
+
+def replans(analysis):
+    rows = [(entry.number, number, replan.cause, replan.reason)
+            for entry in analysis.tasks for number, replan in enumerate(entry.task.replans or [], 1)]
+    return Table('replans', [Column('task', 'task'), Column('replan', 're-plan'),
+                             Column('cause', 'cause'), Column('reason', 'in words')], rows)
+
+
 def runs(analysis):
     rows = [(entry.number, run.plan_number, run.pushes, run.replanned)
             for entry in analysis.tasks for run in entry.runs]
@@ -187,4 +217,5 @@ def collisions(analysis):
 
 
 def all_tables(analysis):
-    return [make(analysis) for make in (pushes, plans, runs, phases, cases, collisions)]
+    return [make(analysis) for make in (tasks, pushes, plans, replans, runs, phases, cases,
+                                             collisions)]

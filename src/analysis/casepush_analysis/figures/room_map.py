@@ -5,6 +5,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 from matplotlib.ticker import MultipleLocator
+from matplotlib.transforms import ScaledTranslation
 
 from casepush_analysis.figures import geometry, style
 from casepush_analysis.se2 import interpolate
@@ -12,6 +13,7 @@ from casepush_analysis.se2 import interpolate
 _HEIGHTS = LinearSegmentedColormap.from_list('heights', ['#d9dde2', '#8d97a3', '#4d5661'])
 _TALL_M = 1.8  # Anything higher is drawn as dark as this.
 _MARGIN_M = 1.0  # Around the object's way.
+_LABELS_IN = 0.55  # Height of the labels below the x axis.
 
 
 def draw(recording, entry, whole_room):
@@ -132,5 +134,7 @@ def _legend(axes, recording, entry, robot, truth, tracked):
                                        markeredgewidth=2.5, linestyle='')),
                (recording.room is not None, Patch(facecolor='#8d97a3',
                                                   label='walls and furniture (dark: tall)'))]
-    axes.legend(handles=[handle for wanted, handle in entries if wanted],
-                  loc='upper center', bbox_to_anchor=(0.5, -0.07), ncol=3, borderaxespad=0.0)
+    below_labels = ScaledTranslation(0.0, -_LABELS_IN, axes.figure.dpi_scale_trans)
+    axes.legend(handles=[handle for wanted, handle in entries if wanted], loc='upper center',
+                bbox_to_anchor=(0.5, 0.0), bbox_transform=axes.transAxes + below_labels, ncol=3,
+                borderaxespad=0.0)
