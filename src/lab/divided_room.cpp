@@ -12,10 +12,9 @@
 namespace casepush {
 namespace {
 
-constexpr double kGap_m = 0.2;    // Between furniture and what must stay free.
-constexpr double kPlay_m = 0.5;   // Of start and goal beside the door's axis.
-constexpr double kStray_m = 0.05; // Of what stands in the door.
-constexpr int kTagsPerObject = 100;
+constexpr double kGap_m = 0.2;     // Between furniture and what must stay free.
+constexpr double kPlay_m = 0.5;    // Of start and goal beside the door's axis.
+constexpr double kStray_m = 0.05;  // Of what stands in the door.
 
 class DividedRoom {
  public:

@@ -39,20 +39,30 @@ MeanInterval meanInterval(const std::vector<double>& values) {
 }
 
 MeanInterval bootstrapInterval(const std::vector<double>& values, std::uint64_t seed) {
-  CASEPUSH_CHECK(!values.empty(), "no values");
+  return bootstrapRatio(values, std::vector<double>(values.size(), 1.0), seed);
+}
+
+MeanInterval bootstrapRatio(const std::vector<double>& above, const std::vector<double>& below,
+                            std::uint64_t seed) {
+  CASEPUSH_CHECK(!above.empty() && above.size() == below.size(),
+                 above.size() << " and " << below.size() << " values");
   constexpr int kResamples = 4000;
   Random random = Random::stream(seed, "bootstrap");
-  const double n = static_cast<double>(values.size());
-  std::vector<double> means(kResamples, 0.0);
-  for (double& mean : means) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      mean += values[random.below(values.size())] / n;
+  std::vector<double> ratios;
+  for (int k = 0; k < kResamples; ++k) {
+    double sum_above = 0.0, sum_below = 0.0;
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      const auto drawn = random.below(above.size());
+      sum_above += above[drawn];
+      sum_below += below[drawn];
     }
+    ratios.push_back(sum_above / sum_below);
   }
-  std::sort(means.begin(), means.end());
+  std::sort(ratios.begin(), ratios.end());
   constexpr int kTail = kResamples / 40;  // 2.5 %
-  return {std::accumulate(values.begin(), values.end(), 0.0) / n, means[kTail],
-          means[kResamples - 1 - kTail]};
+  return {std::accumulate(above.begin(), above.end(), 0.0) /
+              std::accumulate(below.begin(), below.end(), 0.0),
+          ratios[kTail], ratios[kResamples - 1 - kTail]};
 }
 
 }  // namespace casepush

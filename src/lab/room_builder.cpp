@@ -71,28 +71,51 @@ double RoomBuilder::furnish(double density) {
   return covered_m2 / floor_m2;
 }
 
+bool RoomBuilder::placeObject(const std::string& id, const ObjectModel& model, int tag_offset) {
+  Shadow disc;
+  disc.points[0].setZero();
+  disc.count = 1;
+  disc.radius_m = model.radius_m;
+  for (int draw = 0; draw < kPlaceDraws; ++draw) {
+    if (const std::optional<Pose2> pose = tryStand(disc, 1.0)) {
+      world_.objects.push_back({id, model.name, *pose, tag_offset});
+      return true;
+    }
+  }
+  return false;
+}
+
 bool RoomBuilder::tryPlace(const FurniturePiece& piece) {
+  const Shadow outline = rectangle(-0.5 * piece.size_m, 0.5 * piece.size_m);
+  const std::optional<Pose2> pose = tryStand(outline, 5.0);
+  if (!pose) return false;
+  ++pieces_;
+  add(piece, *pose);
+  return true;
+}
+
+/// One attempt at a random place.
+std::optional<Pose2> RoomBuilder::tryStand(const Shadow& outline, double heading_step_deg) {
   const double inside_m = size_m_ - kWall_m;
   const double x = toCentimetre(random_.uniform(kWall_m, inside_m));
   const double y = toCentimetre(random_.uniform(kWall_m, inside_m));
   // Most furniture stands square to the walls.
-  const Pose2 pose(x, y, drawHeading(random_, random_.chance(0.7) ? 90.0 : 5.0));
-  const Shadow shadow = transformed(pose, rectangle(-0.5 * piece.size_m, 0.5 * piece.size_m));
+  const Pose2 pose(x, y, drawHeading(random_, random_.chance(0.7) ? 90.0 : heading_step_deg));
+  const Shadow shadow = transformed(pose, outline);
   for (int i = 0; i < shadow.count; ++i) {
-    if (shadow.points[i].minCoeff() < kWall_m || shadow.points[i].maxCoeff() > inside_m) {
-      return false;
+    if (shadow.points[i].minCoeff() < kWall_m + shadow.radius_m ||
+        shadow.points[i].maxCoeff() > inside_m - shadow.radius_m) {
+      return std::nullopt;
     }
   }
   for (const FreeDisc& disc : free_) {
-    if (separation(shadow, disc.centre_m) < disc.radius_m) return false;
+    if (separation(shadow, disc.centre_m) < disc.radius_m) return std::nullopt;
   }
   for (const Shadow& other : placed_) {
-    if (closerThan(shadow, other, kPieceGap_m)) return false;
+    if (closerThan(shadow, other, kPieceGap_m)) return std::nullopt;
   }
   placed_.push_back(shadow);
-  ++pieces_;
-  add(piece, pose);
-  return true;
+  return pose;
 }
 
 void RoomBuilder::add(const FurniturePiece& piece, const Pose2& pose) {

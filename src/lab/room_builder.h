@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "casepush/common/random.h"
+#include "casepush/model/object_model.h"
 #include "casepush/model/world_model.h"
 #include "casepush/world/shadow.h"
 #include "furniture_kind.h"
@@ -18,6 +20,9 @@ double toCentimetre(double value_m);
 
 /// A heading to the degree (or whatever the step is) [rad].
 double drawHeading(Random& random, double step_deg);
+
+/// Between the tags of two objects in a room.
+constexpr int kTagsPerObject = 100;
 
 /// A wall of a room, upright, square to the axes.
 StaticBox wall(const std::string& name, double length_x_m, double length_y_m, double x_m,
@@ -36,12 +41,16 @@ class RoomBuilder {
   /// Furniture keeps off a wall that is part of the world already.
   void addWall(const StaticBox& box);
 
+  /// Puts an object where furniture might stand. False if there is no room for it.
+  bool placeObject(const std::string& id, const ObjectModel& model, int tag_offset);
+
   /// Adds pieces of furniture until they cover a share of the floor. Returns the share reached,
   /// which is less if no more fit.
   double furnish(double density);
 
  private:
   bool tryPlace(const FurniturePiece& piece);
+  std::optional<Pose2> tryStand(const Shadow& outline, double heading_step_deg);
   void add(const FurniturePiece& piece, const Pose2& pose);
 
   struct FreeDisc {

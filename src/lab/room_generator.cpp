@@ -29,7 +29,8 @@ struct Way {
 class RoomGenerator {
  public:
   RoomGenerator(const Catalog& catalog, const RoomOptions& options)
-      : options_(options),
+      : catalog_(catalog),
+        options_(options),
         object_(catalog.object(options.object)),
         robot_(catalog.robot(options.robot)),
         random_(Random::stream(options.seed, "room")),
@@ -49,6 +50,7 @@ class RoomGenerator {
     }
     builder_.world().robot = options_.robot;
     placeBodies(drawWay());
+    placeMovable();
     furnish();
     return std::move(builder_.world());
   }
@@ -101,6 +103,19 @@ class RoomGenerator {
     }
   }
 
+  void placeMovable() {
+    int number = 0;
+    for (const std::string& object : options_.movable) {
+      ++number;
+      if (!builder_.placeObject("movable_" + std::to_string(number), catalog_.object(object),
+                                number * kTagsPerObject)) {
+        throw InputError("movable objects", object + " finds no place in " +
+                                                describe(options_.size_m) +
+                                                " m; ask for fewer or for a larger room");
+      }
+    }
+  }
+
   void furnish() {
     const double reached = builder_.furnish(options_.density);
     if (reached < options_.density) {
@@ -111,6 +126,7 @@ class RoomGenerator {
     }
   }
 
+  const Catalog& catalog_;
   const RoomOptions& options_;
   ObjectModel object_;
   RobotModel robot_;
@@ -127,6 +143,7 @@ void RoomOptions::validate() const {
   Violations violations;
   violations.require("size", size_m, 2.0, 100.0);
   violations.require("density", density, 0.0, 0.5);
+  violations.require("number of movable objects", static_cast<double>(movable.size()), 0, 5);
   violations.throwIfAny("room options");
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "casepush/lab/learning.h"
 
@@ -16,5 +17,10 @@ struct ScratchLearning {
 /// @throws InputError as learnInLab; also if learning gives up.
 ScratchLearning learnInScratch(const Catalog& catalog, const std::string& object,
                                const std::string& robot, const LearningOptions& options);
+
+/// The cases of several objects, learnt one after the other in one such case base: no two have the
+/// same id, and those of the first object are as if it were learnt alone.
+std::vector<Case> learnAllInScratch(const Catalog& catalog, const std::vector<std::string>& objects,
+                                    const std::string& robot, const LearningOptions& options);
 
 }  // namespace casepush

@@ -1,43 +1,40 @@
 #include "casepush/lab/task_experiment.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <mutex>
 #include <utility>
 
-#include "casepush/common/random.h"
 #include "casepush/common/violations.h"
+#include "casepush/world/static_map.h"
 #include "parallel.h"
-#include "push_pool.h"
 #include "scratch_case_base.h"
 
 namespace casepush {
 namespace {
 
-// Between object or goal and the nearest corner's walls, for the robot to go around.
-constexpr double kCornerRoomM = 2.5;
-constexpr double kRobotGapM = 0.3;
-
 std::uint64_t seedOf(std::uint64_t seed, int index) {
   return seed * 1000003 + static_cast<std::uint64_t>(index);
 }
 
-PushProblem problemOf(const Catalog& catalog, const TaskExperimentOptions& options,
-                      std::uint64_t seed) {
-  if (options.setting == TaskSetting::kDiagonal) {
-    return diagonalProblem(catalog, options.object, options.robot, options.goal_distance_m, seed);
+/// The object first: its cases are the same whatever else is learnt.
+std::vector<std::string> objectsToLearn(const Catalog& catalog,
+                                        const TaskExperimentOptions& options) {
+  std::vector<std::string> objects = {options.object};
+  if (!options.run.clear_obstacles) return objects;
+  const auto add = [&](const std::string& object) {
+    const bool known = std::any_of(objects.begin(), objects.end(), [&](const std::string& each) {
+      return catalog.object(each).name == catalog.object(object).name;
+    });
+    if (!known) objects.push_back(object);
+  };
+  for (const std::string& object : options.movable) add(object);
+  if (options.setting == TaskSetting::kWorld) {
+    for (const ObjectPlacement& other : loadWorld(catalog, options.world).objects) {
+      add(other.model);
+    }
   }
-  RoomOptions room;
-  room.seed = seed;
-  room.size_m = options.room_size_m;
-  room.density = options.room_density;
-  room.object = options.object;
-  room.robot = options.robot;
-  WorldModel world = generateRoom(catalog, room);
-  const std::string id = world.objects.front().id;
-  const Pose2 goal = *world.goal;
-  return {std::move(world), id, goal};
+  return objects;
 }
 
 std::vector<Case> learnCases(const Catalog& catalog, const TaskExperimentOptions& options,
@@ -46,12 +43,12 @@ std::vector<Case> learnCases(const Catalog& catalog, const TaskExperimentOptions
   learning.jobs = 1;
   learning.exploration.seed = seedOf(options.seed, index);
   learning.lab.simulator.seed = learning.exploration.seed;
-  return learnInScratch(catalog, options.object, options.robot, learning).cases;
+  return learnAllInScratch(catalog, objectsToLearn(catalog, options), options.robot, learning);
 }
 
 PushRunResult runTask(const Catalog& catalog, const TaskExperimentOptions& options,
                       const std::vector<Case>& cases, std::uint64_t seed) {
-  const PushProblem problem = problemOf(catalog, options, seed);
+  const PushProblem problem = taskProblem(catalog, options, seed);
   PushRunOptions run = options.run;
   run.lab.simulator.seed = seed;
   if (options.load) {
@@ -69,28 +66,6 @@ void TaskExperimentOptions::validate() const {
   violations.require("case_bases", case_bases, 1, 1000);
   violations.require("jobs", jobs, 1, 256);
   violations.throwIfAny("task experiment");
-}
-
-PushProblem diagonalProblem(const Catalog& catalog, const std::string& object,
-                            const std::string& robot, double distance_m, std::uint64_t seed) {
-  const ObjectModel model = catalog.object(object);
-  const double corner_m = 0.5 * distance_m * std::sqrt(0.5);
-  const double half_m = corner_m + kCornerRoomM + model.radius_m;
-  Random random = Random::stream(seed, "diagonal problem");
-  const Pose2 start(-corner_m, -corner_m, random.uniform(-M_PI, M_PI));
-  const double away_m = model.radius_m + catalog.robot(robot).radius_m + kRobotGapM;
-  PushProblem problem;
-  problem.object_id = model.name + "_1";
-  problem.world.name = "open_floor";
-  problem.world.min_m = {-half_m, -half_m};
-  problem.world.max_m = {half_m, half_m};
-  problem.world.robot = robot;
-  problem.world.map_T_robot =
-      start * Pose2(0.0, 0.0, random.uniform(-M_PI, M_PI)) * Pose2(-away_m, 0.0, 0.0);
-  problem.world.objects.push_back({problem.object_id, object, start, 0});
-  problem.map_T_goal = Pose2(corner_m, corner_m, random.uniform(-M_PI, M_PI));
-  addWalls(problem.world, half_m);
-  return problem;
 }
 
 std::vector<TaskRun> runTasks(const Catalog& catalog, const TaskExperimentOptions& options,

@@ -1,13 +1,10 @@
 #include <cstdio>
-#include <functional>
-#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "casepush/lab/task_experiment.h"
-#include "command.h"
-#include "task_experiment_json.h"
+#include "casepush/lab/mean_interval.h"
+#include "task_experiment_rows.h"
 
 namespace casepush {
 namespace {
@@ -15,115 +12,14 @@ namespace {
 /// Generous, so that a slow or busy machine does not change the result of a seed.
 constexpr double kPlanDeadlineS = 120.0;
 
-struct TaskExperimentArguments {
-  CommonOptions common;
-  TaskExperimentOptions experiment;
-  std::vector<std::string> objects;
-  std::vector<std::string> caster_models = {toString(CasterModel::kPlanar),
-                                            toString(CasterModel::kFeatherstone)};
-  std::vector<int> practices = {1, 3, 5, 10, 20};
-  std::string rest_rule = toString(RestRule::kLikelyEnd);
-  std::string test = toString(OutcomeTest::kHotelling);
-  bool no_break_off = false;
-  bool no_notice = false;
-  bool replan_when_rejected = false;
-};
-
-/// One row of an experiment's table.
-struct Row {
-  nlohmann::ordered_json label;  ///< What distinguishes it.
-  TaskExperimentOptions options;
-};
-
-/// Tells how far an experiment is and how long the rest will take at the pace so far.
-class ExperimentProgress {
- public:
-  explicit ExperimentProgress(std::size_t rows) : rows_(rows) {}
-
-  void update(std::size_t row, const std::string& name, const char* what, int done, int count) {
-    const bool is_learning = std::string(what) == "learning";
-    const double share =
-        (static_cast<double>(row) + (is_learning ? 0.0 : static_cast<double>(done) / count)) /
-        static_cast<double>(rows_);
-    std::string text =
-        name + ": " + what + " " + std::to_string(done) + "/" + std::to_string(count);
-    if (share > 0.0) {
-      text += ", " + durationText(watch_.seconds() * (1.0 - share) / share) + " left";
-    }
-    line_.show(text);
-  }
-
- private:
-  std::size_t rows_;
-  Stopwatch watch_;
-  ProgressLine line_;
-};
-
-std::string labelText(const nlohmann::ordered_json& label) {
-  std::string text;
-  for (const auto& [key, value] : label.items()) {
-    text += (text.empty() ? "" : ", ") +
-            (value.is_string() ? value.get<std::string>() : key + " " + value.dump());
-  }
-  return text;
-}
-
-void printTable(const nlohmann::ordered_json& rows) {
-  std::printf("%-46s %6s %13s %7s %8s %9s %7s %5s\n", "", "tasks", "success [%]", "pushes",
-              "replans", "in a row", "time s", "hits");
-  for (const nlohmann::ordered_json& row : rows) {
-    const nlohmann::ordered_json& success = row["success"];
-    std::printf("%-46s %6d %5.1f %3.0f-%3.0f %7.1f %8.1f %9.1f %7.1f %5d\n",
-                labelText(row["label"]).c_str(), row["tasks"].get<int>(),
-                100.0 * success["share"].get<double>(), 100.0 * success["ci95"][0].get<double>(),
-                100.0 * success["ci95"][1].get<double>(), row["pushes"]["median"].get<double>(),
-                row["replans"]["median"].get<double>(),
-                row["median_pushes_before_replan"].get<double>(),
-                row["sim_time_s"]["median"].get<double>(), row["collisions"].get<int>());
-  }
-  std::cout << "Medians of tasks; in a row: pushes before a re-plan; hits: contacts with walls and "
-               "furniture\n";
-}
-
 int runRows(const TaskExperimentArguments& arguments, const std::vector<Row>& rows) {
   const Stopwatch watch;
-  const Catalog catalog = Catalog::standard();
-  ExperimentProgress progress(rows.size());
-  nlohmann::ordered_json results = nlohmann::ordered_json::array();
-  nlohmann::ordered_json planning_s = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::vector<TaskRun> runs =
-        runTasks(catalog, rows[i].options, [&](const char* what, int done, int count) {
-          progress.update(i, labelText(rows[i].label), what, done, count);
-        });
-    nlohmann::ordered_json row = {{"label", rows[i].label}};
-    row.update(taskRunsJson(runs));
-    results.push_back(row);
-    double seconds = 0.0;
-    for (const TaskRun& run : runs) {
-      seconds += run.result.planning_s;
-    }
-    planning_s.push_back(seconds);
+  const Results results = runAll(rows);
+  if (arguments.common.json) {
+    printJson(arguments, results, watch, nlohmann::ordered_json::object());
+  } else {
+    printTable(results.rows);
   }
-  if (!arguments.common.json) {
-    printTable(results);
-    return kExitSuccess;
-  }
-  printResult({{"success", true},
-               {"rest_rule", arguments.rest_rule},
-               {"rest_share", arguments.experiment.run.task.rest.least_share},
-               {"horizon", arguments.experiment.run.task.rest.horizon},
-               {"replan_when_rejected", arguments.replan_when_rejected},
-               {"test", arguments.test},
-               {"alpha", arguments.experiment.run.task.push.alpha},
-               {"break_off", !arguments.no_break_off},
-               {"notice", !arguments.no_notice},
-               {"cases", arguments.experiment.learning.exploration.cases},
-               {"case_bases", arguments.experiment.case_bases},
-               {"rows", results},
-               {"seed", arguments.common.seed},
-               {"timing", {{"wall_s", watch.seconds()}, {"planning_s", planning_s}}}},
-              true);
   return kExitSuccess;
 }
 
@@ -131,6 +27,15 @@ TaskExperimentOptions commonOptions(const TaskExperimentArguments& arguments) {
   TaskExperimentOptions options = arguments.experiment;
   options.seed = arguments.common.seed;
   options.run.task.plan_deadline_s = kPlanDeadlineS;
+  options.run.task.clear.deadline_s = kPlanDeadlineS;
+  options.run.planner = plannerOptions(arguments.planner);
+  if (arguments.rooms == "random" || arguments.rooms == "divided") {
+    options.setting =
+        arguments.rooms == "random" ? TaskSetting::kRandomRooms : TaskSetting::kDividedRooms;
+  } else {
+    options.setting = TaskSetting::kWorld;
+    options.world = arguments.rooms;
+  }
   options.run.task.rest.rule = arguments.rest_rule == toString(RestRule::kMeanAtGoal)
                                    ? RestRule::kMeanAtGoal
                                    : RestRule::kLikelyEnd;
@@ -196,6 +101,62 @@ int adaptation(const TaskExperimentArguments& arguments) {
   return runRows(arguments, rows);
 }
 
+/// How much longer the tasks of one row take than those of another, where both succeeded.
+nlohmann::ordered_json ratioJson(const std::string& caster_model, const std::vector<TaskRun>& above,
+                                 const std::vector<TaskRun>& below, std::uint64_t seed) {
+  std::vector<double> above_s, below_s;
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    if (above[i].result.success && below[i].result.success) {
+      above_s.push_back(above[i].result.sim_time_s);
+      below_s.push_back(below[i].result.sim_time_s);
+    }
+  }
+  nlohmann::ordered_json json = {{"caster_model", caster_model}, {"pairs", above_s.size()}};
+  if (!above_s.empty()) {
+    const MeanInterval ratio = bootstrapRatio(above_s, below_s, seed);
+    json["ratio"] = ratio.mean;
+    json["ci95"] = {ratio.low, ratio.high};
+  }
+  return json;
+}
+
+void printRatios(const nlohmann::ordered_json& ratios) {
+  for (const nlohmann::ordered_json& each : ratios) {
+    if (!each.contains("ratio")) continue;
+    std::printf("%s: stationary obstacles take %.2f (%.2f to %.2f) times as long as movable ones\n",
+                each["caster_model"].get<std::string>().c_str(), each["ratio"].get<double>(),
+                each["ci95"][0].get<double>(), each["ci95"][1].get<double>());
+  }
+}
+
+int obstacles(const TaskExperimentArguments& arguments) {
+  const Stopwatch watch;
+  std::vector<Row> rows;
+  for (const std::string& caster_model : arguments.caster_models) {
+    for (const char* kind : {"stationary", "movable"}) {
+      Row row{{{"caster_model", caster_model}, {"obstacles", kind}}, commonOptions(arguments)};
+      row.options.setting = TaskSetting::kDividedRooms;
+      row.options.run.clear_obstacles = std::string(kind) == "movable";
+      setCasterModel(caster_model, &row.options);
+      rows.push_back(row);
+    }
+  }
+  const Results results = runAll(rows);
+  nlohmann::ordered_json ratios = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < arguments.caster_models.size(); ++i) {
+    ratios.push_back(ratioJson(arguments.caster_models[i], results.runs[2 * i],
+                               results.runs[2 * i + 1],
+                               static_cast<std::uint64_t>(arguments.common.seed)));
+  }
+  if (arguments.common.json) {
+    printJson(arguments, results, watch, {{"stationary_over_movable", ratios}});
+  } else {
+    printTable(results.rows);
+    printRatios(ratios);
+  }
+  return kExitSuccess;
+}
+
 CLI::App* addExperiment(CLI::App& app, const char* name, const char* description, Run& run,
                         const std::shared_ptr<TaskExperimentArguments>& arguments,
                         int (*work)(const TaskExperimentArguments&)) {
@@ -248,6 +209,7 @@ CLI::App* addExperiment(CLI::App& app, const char* name, const char* description
   command->add_flag("--no-notice", arguments->no_notice,
                     "Adapt each case for itself, also if pushes give away that load or floor "
                     "changed");
+  addPlannerOptions(*command, arguments->planner);
   command->add_flag("--no-break-off", arguments->no_break_off,
                     "Finish pushes whose object leaves its expected course");
   command->callback(
@@ -273,6 +235,20 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
         run, arguments, success);
     command->add_option("--objects", arguments->objects, "Objects by name or URDF file")
         ->capture_default_str();
+    command
+        ->add_option("--rooms", arguments->rooms,
+                     "random (each task in a cluttered room of its own), divided (in one with two "
+                     "doors, the short way through the one), or a world by name or YAML file with "
+                     "random starts and goals")
+        ->capture_default_str();
+    command
+        ->add_option("--movable", arguments->experiment.movable,
+                     "Other objects by name or URDF file: among the furniture of random rooms, in "
+                     "the near door of divided ones")
+        ->expected(0, 5);
+    command->add_flag("--clear-obstacles", arguments->experiment.run.clear_obstacles,
+                      "Learn other objects, too, and push them out of the way where that is "
+                      "expected to be quicker; without it they are fixed");
     command->add_option("--size", arguments->experiment.room_size_m, "Edge of the rooms [m]")
         ->capture_default_str();
     command
@@ -313,6 +289,28 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
         ->capture_default_str();
     addPractices(*command, arguments->experiment);
     addLoadOption(*command, arguments->experiment.load);
+  }
+  {
+    auto arguments = std::make_shared<TaskExperimentArguments>();
+    arguments->experiment.object = "overbed_table";
+    arguments->experiment.movable = {"office_chair", "utility_cart"};
+    arguments->experiment.room_density = 0.03;
+    CLI::App* command = addExperiment(
+        experiment, "obstacles",
+        "Tasks in rooms with a short way through a door in which other objects stand, and a long "
+        "free one (Table 1 of the paper): the same tasks with these objects fixed and pushed out "
+        "of the way",
+        run, arguments, obstacles);
+    command->add_option("--object", arguments->experiment.object, "Object by name or URDF file")
+        ->capture_default_str();
+    command
+        ->add_option("--movable", arguments->experiment.movable,
+                     "What stands in the door, by name or URDF file")
+        ->expected(1, 5)
+        ->capture_default_str();
+    command->add_option("--size", arguments->experiment.room_size_m, "Edge of the rooms [m]")
+        ->capture_default_str();
+    addPractices(*command, arguments->experiment);
   }
 }
 

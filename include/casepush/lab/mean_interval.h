@@ -18,4 +18,9 @@ MeanInterval meanInterval(const std::vector<double>& values);
 /// @pre values is not empty.
 MeanInterval bootstrapInterval(const std::vector<double>& values, std::uint64_t seed);
 
+/// Mean of `above` over mean of `below` with its 95 % interval, by resampling pairs as above.
+/// @pre As many of both, at least one; all of `below` are positive.
+MeanInterval bootstrapRatio(const std::vector<double>& above, const std::vector<double>& below,
+                            std::uint64_t seed);
+
 }  // namespace casepush

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "casepush/model/catalog.h"
 
@@ -12,6 +13,7 @@ struct RoomOptions {
   double size_m = 10.0;  ///< Edge length of the square room, outer walls included.
   double density = 0.1;  ///< Share of the floor that furniture covers, walls not counted.
   std::string object = "office_chair";
+  std::vector<std::string> movable;  ///< Other objects among the furniture, by name or URDF file.
   std::string robot = "cobot";
   void validate() const;  ///< @throws InputError listing every violation.
 };

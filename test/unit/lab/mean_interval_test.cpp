@@ -38,5 +38,18 @@ TEST(BootstrapInterval, isTheValueItselfForOne) {
   EXPECT_EQ(bootstrapInterval({0.7}, 1).high, 0.7);
 }
 
+TEST(BootstrapRatio, isThatOfTheMeansAndResamplesPairs) {
+  const std::vector<double> below = {1.0, 2.0, 4.0, 8.0};
+  const std::vector<double> above = {2.0, 4.0, 8.0, 16.0};
+  const MeanInterval same = bootstrapRatio(above, below, 1);
+  EXPECT_DOUBLE_EQ(same.mean, 2.0);
+  EXPECT_DOUBLE_EQ(same.low, 2.0);
+  EXPECT_DOUBLE_EQ(same.high, 2.0);
+  const MeanInterval other = bootstrapRatio({16.0, 8.0, 4.0, 2.0}, below, 1);
+  EXPECT_DOUBLE_EQ(other.mean, 2.0);
+  EXPECT_LT(other.low, 1.0);
+  EXPECT_GT(other.high, 4.0);
+}
+
 }  // namespace
 }  // namespace casepush

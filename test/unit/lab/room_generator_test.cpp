@@ -8,6 +8,7 @@
 
 #include "casepush/lab/push_run.h"
 #include "casepush/planning/robot_path_planner.h"
+#include "casepush/sim/simulator.h"
 #include "casepush/world/collision_checker.h"
 #include "common/input_error_text.h"
 #include "common/temporary_folder.h"
@@ -144,6 +145,16 @@ TEST_P(GuaranteedRooms, comeBackFromAFileToTheLastBit) {
 
 INSTANTIATE_TEST_SUITE_P(All, GuaranteedRooms, testing::ValuesIn(Catalog::standard().objectNames()),
                          [](const auto& object) { return object.param; });
+
+TEST_F(GenerateRoom, putsMovableObjectsWhereTheyHitNothing) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RoomOptions options = roomFor("overbed_table", seed);
+    options.movable = {"office_chair", "utility_cart", "office_chair"};
+    const WorldModel world = generateRoom(catalog_, options);
+    ASSERT_EQ(world.objects.size(), 4U);
+    EXPECT_NO_THROW(Simulator(world, catalog_.robotOf(world), catalog_.objectsOf(world), {})) << seed;
+  }
+}
 
 TEST_F(GenerateRoom, refusesWhatCannotBe) {
   const auto errorOf = [&](const RoomOptions& options) {

@@ -66,6 +66,27 @@ TEST(DiagonalProblem, hasTheDistanceAskedForAndRoomAround) {
   }
 }
 
+TEST(TaskProblem, isSetWhereTheOptionsSay) {
+  const Catalog catalog = Catalog::standard();
+  TaskExperimentOptions options = small();
+  options.object = "overbed_table";
+  options.movable = {"utility_cart"};
+  options.setting = TaskSetting::kDividedRooms;
+  const PushProblem divided = taskProblem(catalog, options, 3);
+  EXPECT_EQ(divided.world.name, "divided_room_3");
+  ASSERT_EQ(divided.world.objects.size(), 2U);
+  EXPECT_EQ(divided.world.objects[1].model, "utility_cart");
+  options.setting = TaskSetting::kRandomRooms;
+  const PushProblem random = taskProblem(catalog, options, 3);
+  EXPECT_EQ(random.world.name, "room_3");
+  EXPECT_EQ(random.world.objects.size(), 2U);
+  options.setting = TaskSetting::kWorld;
+  options.world = "corridor";
+  const PushProblem world = taskProblem(catalog, options, 3);
+  EXPECT_EQ(world.world.name, "corridor");
+  EXPECT_GT(distance(world.map_T_goal, taskProblem(catalog, options, 4).map_T_goal), 0.0);
+}
+
 TEST(RunTasks, refusesBadOptions) {
   TaskExperimentOptions options = small();
   options.tasks = 0;
