@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "casepush/cases/shortened_case.h"
+
 namespace casepush {
 namespace {
 
@@ -16,19 +18,22 @@ class WorkingCases {
         base_(cases, options.adapting.floor),
         adapting_(&base_, {}, options.adapting) {
     adapting_.tell(object, options.context);
-    present_ = adapting_.cases();
+    present_ = withShortened(adapting_.cases());
   }
 
+  /// With the shortened ones, which are made anew whenever one adapts.
   const std::vector<Case>& present() const { return present_; }
 
   /// The case that was given for the one of a report, which may be a copy made since.
-  std::int64_t given(std::int64_t id) const { return families(base_.cases()).at(id); }
+  std::int64_t given(std::int64_t id) const {
+    return id < 0 ? id : families(base_.cases()).at(id);
+  }
 
   /// What adapting says, if anything.
   std::string learnFrom(const PushReport& report) {
-    if (!adapt_ || !isObservation(report)) return {};
+    if (!adapt_ || !isObservation(report) || report.case_id < 0) return {};
     std::string notice = adapting_.learnFrom(report);
-    present_ = adapting_.cases();
+    present_ = withShortened(adapting_.cases());
     return notice;
   }
 

@@ -63,6 +63,8 @@ struct PushPlanner::Data {
                         const std::vector<PlacedSolid>& obstacles) const;
   PlanResult search(const PlanRequest& request, const std::vector<const Case*>& cases,
                     const SearchClock& clock) const;
+  PlanResult searchShortOnesLast(const PlanRequest& request, const std::vector<const Case*>& cases,
+                                 const SearchClock& clock) const;
   ClearingResult clearAway(const ClearingRequest& request, const PlanRequest& plan_request,
                            const std::vector<const Case*>& own, const std::vector<Case>& cases,
                            const SearchClock& clock) const;

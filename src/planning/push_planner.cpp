@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "casepush/common/check.h"
@@ -193,7 +194,7 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
         }
         validateCase(*push_case, "case " + std::to_string(push_case->id));
       }
-      result = data_->search(request, own, clock);
+      result = data_->searchShortOnesLast(request, own, clock);
     } catch (const InputError& error) {
       result = failed(PlanStatus::kInvalidRequest, error.what());
     }
@@ -274,6 +275,22 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
     }
   }
   return result;
+}
+
+// Shortened cases (negative ids) multiply what a search has to look at, so they wait until the
+// whole ones lead nowhere.
+PlanResult PushPlanner::Data::searchShortOnesLast(const PlanRequest& request,
+                                                  const std::vector<const Case*>& cases,
+                                                  const SearchClock& clock) const {
+  std::vector<const Case*> whole;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(whole),
+               [](const Case* push_case) { return push_case->id >= 0; });
+  PlanResult result = search(request, whole.empty() ? cases : whole, clock);
+  const bool is_worth_it = result.status == PlanStatus::kUnreachable && options.relax &&
+                           !whole.empty() && whole.size() < cases.size() && !clock.isOver();
+  if (!is_worth_it) return result;
+  PlanResult short_steps = search(request, cases, clock);
+  return short_steps.status == PlanStatus::kSolved ? short_steps : result;
 }
 
 // Chains the plan's pushes from its object's pose and tells which of them can be applied.
