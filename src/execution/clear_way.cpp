@@ -14,6 +14,8 @@ void ClearWayOptions::validate() const {
   Violations violations;
   violations.require("max_pushes", max_pushes, 1, 100000);
   violations.require("max_depth", max_depth, 1, 100);
+  violations.require("pushes_ahead", pushes_ahead, 1, 1000);
+  violations.require("deadline_s", deadline_s, 0.01, 3600.0);
   violations.require("look_timeout_s", look_timeout_s, 0.1, 3600.0);
   violations.throwIfAny("clearing options");
 }
@@ -30,6 +32,8 @@ struct ClearWay::Data {
   ClearWayOptions options;
   std::vector<PushPlan> ways;  ///< The plan, then those of the obstacles that are being cleared.
   std::optional<ExecutePush> push;
+  PushPlan rest;  ///< Of the obstacle's plan after that push.
+  std::optional<std::vector<std::string>> first_blockers;  ///< Until the first tick.
   double looking_since_s = -1.0;
   int pushes = 0;
   std::string text = "looking what is in the way";
@@ -39,7 +43,8 @@ struct ClearWay::Data {
   Tick run(const Observation& observation);
   Tick pushOn(const Observation& observation);
   bool isOnTheWay(const std::string& id) const;
-  std::optional<PlacedObject> nextBlocker(const Observation& observation) const;
+  std::vector<std::string> blockers(const Observation& observation) const;
+  std::optional<PlacedObject> nextBlocker(const Observation& observation);
   void decide(const Observation& observation);
   void clear(const PlacedObject& obstacle, const Observation& observation);
   ClearingResult search(const PlacedObject& obstacle, const Observation& observation) const;
@@ -64,14 +69,26 @@ bool ClearWay::Data::isOnTheWay(const std::string& id) const {
                      [&id](const PushPlan& way) { return way.object.id == id; });
 }
 
-// Of the way of the last plan on the stack.
-std::optional<PlacedObject> ClearWay::Data::nextBlocker(const Observation& observation) const {
-  for (const std::string& id : services.blockers(ways.back(), observation)) {
+// In the way of the last plan on the stack. That of an obstacle is made anew after each push.
+std::vector<std::string> ClearWay::Data::blockers(const Observation& observation) const {
+  std::vector<std::string> ids =
+      services.blockers(ways.back(), observation, ways.size() == 1 ? options.pushes_ahead : 1);
+  const auto stays = [&](const std::string& id) {
     const ObjectState* object = usableObject(observation, id);
-    if (object != nullptr && !isOnTheWay(id))
-      return PlacedObject{id, object->model, object->map_T_object};
-  }
-  return std::nullopt;
+    return object == nullptr || isOnTheWay(id) ||
+           !services.is_movable({id, object->model, object->map_T_object});
+  };
+  ids.erase(std::remove_if(ids.begin(), ids.end(), stays), ids.end());
+  return ids;
+}
+
+std::optional<PlacedObject> ClearWay::Data::nextBlocker(const Observation& observation) {
+  const std::vector<std::string> ids = first_blockers ? *first_blockers : blockers(observation);
+  first_blockers.reset();
+  if (ids.empty()) return std::nullopt;
+  const ObjectState* object = usableObject(observation, ids.front());
+  if (object == nullptr) return std::nullopt;
+  return PlacedObject{object->id, object->model, object->map_T_object};
 }
 
 ClearingResult ClearWay::Data::search(const PlacedObject& obstacle,
@@ -80,7 +97,9 @@ ClearingResult ClearWay::Data::search(const PlacedObject& obstacle,
   request.obstacle = obstacle;
   request.ways = ways;
   request.standing = otherObjects(observation, obstacle.id);
+  request.next_pushes = options.pushes_ahead;
   request.map_T_robot = observation.map_T_robot;
+  request.deadline_s = options.deadline_s;
   const ClearingResult alone = services.clear(request);
   if (alone.found || static_cast<int>(ways.size()) >= options.max_depth) return alone;
   // Others may be in its way in turn.
@@ -132,8 +151,8 @@ void ClearWay::Data::decide(const Observation& observation) {
 }
 
 void ClearWay::Data::startPush() {
-  const PushPlan plan = std::move(ways.back());
-  ways.pop_back();  // Planned anew from where the obstacle comes to rest.
+  PushPlan plan = std::move(ways.back());
+  ways.pop_back();  // It goes on from where the obstacle comes to rest.
   const std::vector<Case> cases = services.cases(plan.object.model);
   const Case* found = findCase(cases, plan.pushes.front().case_id);
   if (found == nullptr) {
@@ -142,6 +161,8 @@ void ClearWay::Data::startPush() {
   }
   text = "clearing " + plan.object.id + " out of the way";
   push.emplace(plan.object.id, *found, robot, services.approach(plan.object.id), options.push);
+  rest = std::move(plan);
+  rest.pushes.erase(rest.pushes.begin());
 }
 
 Tick ClearWay::Data::pushOn(const Observation& observation) {
@@ -153,6 +174,11 @@ Tick ClearWay::Data::pushOn(const Observation& observation) {
   services.on_report(report);
   if (report.outcome == PushOutcome::kRobotLost || report.outcome == PushOutcome::kCancelled) {
     end(BehaviourStatus::kFailed, report.explanation);
+  } else if (isObservation(report) && pushes < options.max_pushes) {
+    // Else it would be planned anew from scratch, and the obstacle might be pushed to and fro.
+    if (const std::optional<PushPlan> plan = services.go_on(rest, observation)) {
+      ways.push_back(*plan);
+    }
   }
   return {};
 }
@@ -171,6 +197,11 @@ ClearWay::ClearWay(PushPlan way, RobotModel robot, ClearWayServices services,
 }
 
 ClearWay::~ClearWay() = default;
+
+bool ClearWay::isNeeded(const Observation& observation) {
+  data_->first_blockers = data_->blockers(observation);
+  return !data_->first_blockers->empty();
+}
 
 Tick ClearWay::tick(const Observation& observation) {
   Tick tick;

@@ -54,22 +54,27 @@ ClearWayServices clearWayServices(const PushPlanner& planner, const std::string&
     return std::any_of(all.begin(), all.end(),
                        [&](const Case& each) { return isFor(each, object.model, robot); });
   };
-  services.in_the_way = [&planner, cases](const PushPlan& plan,
-                                          const std::vector<PlacedObject>& objects) {
-    return planner.inTheWay(plan, cases(), objects);
-  };
   const auto is_movable = services.is_movable;
   services.blockers = [&planner, cases, is_movable](const PushPlan& plan,
-                                                    const Observation& observation) {
+                                                    const Observation& observation, int pushes) {
     if (plan.pushes.empty()) return std::vector<std::string>{};
     const std::vector<Case> all = cases();
     const Others others = othersOf(observation, plan.object.id, is_movable);
-    std::vector<std::string> ids = planner.inTheWay(plan, all, others.movable, 1);
+    std::vector<std::string> ids = planner.inTheWay(plan, all, others.movable, pushes);
     if (!ids.empty()) return ids;
     return inTheRobotsWay(planner, plan, all, others, observation.map_T_robot);
   };
   services.clear = [&planner, cases](const ClearingRequest& request) {
     return planner.clear(request, cases());
+  };
+  services.go_on = [&planner, cases](const PushPlan& rest, const Observation& observation) {
+    std::optional<PushPlan> plan;
+    const ObjectState* object = usableObject(observation, rest.object.id);
+    if (object == nullptr || rest.pushes.empty()) return plan;
+    const PushPlanner::Continuation found = planner.continuePlan(
+        rest, object->map_T_object, cases(), otherObjects(observation, rest.object.id));
+    if (found.applicable > 0) plan = found.plan;
+    return plan;
   };
   services.approach = [&planner](const std::string& id) { return approachPlanner(planner, id); };
   return services;

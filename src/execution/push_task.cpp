@@ -93,6 +93,7 @@ Tick PushTask::Data::searchOn(const Observation& observation) {
 void PushTask::Data::requestPlan(const Observation& observation, const ObjectState& object) {
   request = planRequest(goal, options, observation, object, progress.plans);
   request.obstacles = obstacles(observation);
+  known = otherObjects(observation, goal.object_id);
   services.plans->request(request);
   enter(Stage::kPlan, "planning", "planning", observation.stamp_s);
 }
@@ -158,6 +159,7 @@ void PushTask::Data::rejectPlan(const PlanResult& result, const Observation& obs
     end(PushTaskStatus::kNoPlan,
         "no plan after " + std::to_string(failed_plans) + " attempts: " + result.explanation);
   } else {
+    immovable.clear();  // With less in the way of the plan there may be room after all.
     rest.reset();
     enter(Stage::kLook, "look", "planning failed, trying again", observation.stamp_s);
   }

@@ -1,6 +1,7 @@
 // How PushTask deals with other objects that can be pushed: it plans through them, compares with
 // the way around, and clears its way push by push (paper section 4).
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -35,7 +36,32 @@ std::vector<PlacedObject> movableOnes(const std::vector<PlacedObject>& all,
   return movable;
 }
 
+// More than this is no scatter of an estimate: it was moved.
+constexpr double kMovedM = 0.1;
+constexpr double kMovedRad = 0.2;
+
+bool isAmong(const std::vector<PlacedObject>& known, const PlacedObject& object) {
+  return std::any_of(known.begin(), known.end(), [&object](const PlacedObject& each) {
+    return each.id == object.id && distance(each.map_T_object, object.map_T_object) <= kMovedM &&
+           std::abs(yawDifference(each.map_T_object, object.map_T_object)) <= kMovedRad;
+  });
+}
+
 }  // namespace
+
+// An object that was first seen after the plan was made, or has moved since, and that any push of
+// the plan's rest would hit: to find that out only in front of it may be too late to turn round.
+std::string PushTask::Data::newcomerInTheWay(const PushPlan& rest, const Observation& observation) {
+  const std::vector<PlacedObject> before =
+      std::exchange(known, otherObjects(observation, goal.object_id));
+  std::vector<PlacedObject> newcomers;
+  for (const PlacedObject& other : known) {
+    if (!isAmong(before, other)) newcomers.push_back(other);
+  }
+  if (newcomers.empty()) return {};
+  const std::vector<std::string> ids = services.in_the_way(rest, newcomers);
+  return ids.empty() ? std::string() : ids.front();
+}
 
 // A plan that hits nobody is good as it is. Otherwise the way around is asked for, to compare.
 bool PushTask::Data::asksForWayAround(const PlanResult& result, const Observation& observation) {
@@ -43,7 +69,7 @@ bool PushTask::Data::asksForWayAround(const PlanResult& result, const Observatio
   const std::vector<PlacedObject> all = otherObjects(observation, goal.object_id);
   const std::vector<PlacedObject> movable = movableOnes(all, request.obstacles);
   if (movable.empty() || result.status != PlanStatus::kSolved ||
-      services.clearing->in_the_way(result.plan, movable).empty()) {
+      services.in_the_way(result.plan, movable).empty()) {
     return false;
   }
   through = result;
@@ -53,30 +79,50 @@ bool PushTask::Data::asksForWayAround(const PlanResult& result, const Observatio
   return true;
 }
 
-// By expected time. What stands in the way is cleared from where it stands now, one after another.
+// Of all that stands in the way, one after another; those that do not go first may go later.
+double PushTask::Data::clearingTimeS(const PushPlan& way, const Observation& observation) const {
+  std::vector<PlacedObject> all = otherObjects(observation, goal.object_id);
+  std::vector<std::string> left = services.in_the_way(way, movableOnes(all, request.obstacles));
+  double time_s = 0.0;
+  for (bool goes_on = true; goes_on && !left.empty();) {
+    goes_on = false;
+    for (auto id = left.begin(); id != left.end();) {
+      ClearingRequest clearing;
+      PlacedObject* obstacle = nullptr;
+      for (PlacedObject& object : all) {
+        if (object.id == *id) {
+          obstacle = &object;
+        } else {
+          clearing.standing.push_back(object);
+        }
+      }
+      clearing.obstacle = *obstacle;
+      clearing.standing.push_back(request.object);
+      clearing.ways = {way};
+      clearing.next_pushes = options.clear.pushes_ahead;
+      clearing.map_T_robot = observation.map_T_robot;
+      clearing.deadline_s = options.clear.deadline_s;
+      const ClearingResult found = services.clearing->clear(clearing);
+      if (!found.found) {
+        ++id;
+        continue;
+      }
+      time_s += found.expected_s;
+      obstacle->map_T_object = found.plan.pushes.back().map_outcome.mean;
+      id = left.erase(id);
+      goes_on = true;
+    }
+  }
+  return left.empty() ? time_s : std::numeric_limits<double>::infinity();
+}
+
+// By expected time.
 PlanResult PushTask::Data::quicker(const PlanResult& around, const Observation& observation) {
   const PlanResult straight = std::move(*through);
   through.reset();
   if (around.status != PlanStatus::kSolved) return straight;
-  const std::vector<PlacedObject> all = otherObjects(observation, goal.object_id);
-  const std::vector<PlacedObject> movable = movableOnes(all, request.obstacles);
-  double clearing_s = 0.0;
-  for (const std::string& id : services.clearing->in_the_way(straight.plan, movable)) {
-    ClearingRequest clearing;
-    for (const PlacedObject& object : all) {
-      if (object.id == id) {
-        clearing.obstacle = object;
-      } else {
-        clearing.standing.push_back(object);
-      }
-    }
-    clearing.standing.push_back(request.object);
-    clearing.ways = {straight.plan};
-    clearing.map_T_robot = observation.map_T_robot;
-    const ClearingResult found = services.clearing->clear(clearing);
-    clearing_s += found.found ? found.expected_s : std::numeric_limits<double>::infinity();
-  }
-  return straight.expected_s + clearing_s < around.expected_s ? straight : around;
+  const double through_s = straight.expected_s + clearingTimeS(straight.plan, observation);
+  return through_s < around.expected_s ? straight : around;
 }
 
 // False if nobody is in the way of the next push.
@@ -88,8 +134,11 @@ bool PushTask::Data::beginClearing(const Observation& observation) {
     ++progress.clearing_pushes;
     if (services.on_report) services.on_report(report);
   };
-  if (clearing.blockers(*plan, observation).empty()) return false;
   clear.emplace(*plan, robot, std::move(clearing), options.clear);
+  if (!clear->isNeeded(observation)) {
+    clear.reset();
+    return false;
+  }
   enter(Stage::kClear, "clear", clear->describe(), observation.stamp_s);
   return true;
 }
@@ -101,6 +150,7 @@ Tick PushTask::Data::clearOn(const Observation& observation) {
   const std::string stuck = clear->stuckObstacle();
   clear.reset();
   if (tick.status == BehaviourStatus::kSucceeded) {
+    known = otherObjects(observation, goal.object_id);
     startPush(observation);
   } else {
     if (!stuck.empty()) immovable.insert(stuck);

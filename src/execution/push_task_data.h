@@ -36,6 +36,7 @@ struct PushTask::Data {
   double stage_began_s = 0.0;
   std::optional<PushPlan> plan;  ///< Its first push is the next one.
   PlanRequest request;
+  std::vector<PlacedObject> known;  ///< All others that the plan was last compared with.
   std::optional<ExecutePush> push;
   std::optional<PlanResult> through;  ///< A plan through movable objects, while one around is made.
   std::optional<ClearWay> clear;
@@ -57,7 +58,9 @@ struct PushTask::Data {
   Tick clearOn(const Observation& observation);
   bool isMovable(const PlacedObject& object) const;
   std::vector<PlacedObject> obstacles(const Observation& observation) const;
+  std::string newcomerInTheWay(const PushPlan& rest, const Observation& observation);
   bool asksForWayAround(const PlanResult& result, const Observation& observation);
+  double clearingTimeS(const PushPlan& way, const Observation& observation) const;
   PlanResult quicker(const PlanResult& around, const Observation& observation);
   bool beginClearing(const Observation& observation);
   void enter(Stage next, const char* phase, const std::string& what, double now_s);

@@ -139,7 +139,10 @@ void PushTask::Data::goOn(const PushReport& report, const ObjectState& object,
   const PushPlanner::Continuation rest_of_plan =
       services.continue_plan(*plan, object.map_T_object, services.cases(), obstacles(observation));
   const RestVerdict verdict = judgeRest(rest_of_plan, options.rest);
-  if (verdict.goes_on) {
+  const std::string newcomer = newcomerInTheWay(rest_of_plan.plan, observation);
+  if (!newcomer.empty()) {
+    replan(ReplanCause::kRestCollides, newcomer + " came in sight in the way", observation);
+  } else if (verdict.goes_on) {
     plan = rest_of_plan.plan;
     startPush(observation);
   } else if (report.test.rejected) {

@@ -82,6 +82,13 @@ PushTaskServices completeServices(PushTaskServices services, const std::string& 
       return checker->continuePlan(rest, map_T_object, cases, obstacles);
     };
   }
+  if (!services.in_the_way) {
+    services.in_the_way = [checker, cases = services.cases](
+                              const PushPlan& plan, const std::vector<PlacedObject>& objects) {
+      return checker == nullptr ? std::vector<std::string>{}
+                                : checker->inTheWay(plan, cases(), objects);
+    };
+  }
   if (!services.approach) {
     services.approach = approachPlanner(*checker, object_id);
   }

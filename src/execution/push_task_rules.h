@@ -6,7 +6,7 @@
 
 namespace casepush {
 
-/// Fills continue_plan and approach from the checker.
+/// Fills continue_plan, in_the_way and approach from the checker.
 /// @throws InputError if a required service is missing.
 PushTaskServices completeServices(PushTaskServices services, const std::string& object_id);
 

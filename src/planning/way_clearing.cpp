@@ -12,12 +12,18 @@
 namespace casepush {
 namespace {
 
-constexpr int kMaxNodes = 4000;
-constexpr double kNeeded_m = 0.05;    // Of the obstacle from the way: poses are estimates.
+constexpr int kMaxNodes = 1500;       // Of one search: about three pushes deep.
 constexpr double kPassing_m = 0.2;    // More than the robot needs to pass is no better.
 constexpr double kSightline_m = 3.0;  // Whatever is farther off counts as this far.
 constexpr double kDocking_m = 0.4;    // Behind a push's start that the robot comes along.
 constexpr std::size_t kStride = 4;    // Stations of a way: its poses are half a cell apart.
+
+/// The plan's first pushes; a negative count is all of them.
+std::vector<PlannedPush> nextPushes(const PushPlan& plan, int count) {
+  const std::size_t all = plan.pushes.size();
+  const std::size_t wanted = count < 0 ? all : std::min<std::size_t>(count, all);
+  return {plan.pushes.begin(), plan.pushes.begin() + static_cast<std::ptrdiff_t>(wanted)};
+}
 
 /// Nearest first.
 void sortByDistance(const Pose2& pose, std::vector<PlacedObject>* obstacles) {
@@ -36,29 +42,31 @@ std::vector<std::string> PushPlanner::inTheWay(const PushPlan& plan, const std::
   sortByDistance(plan.object.map_T_object, &nearest);
   std::vector<std::string> ids;
   if (!checkObstacles(obstacles, data_->objects).empty()) return ids;
-  const std::size_t pushes =
-      count < 0 ? plan.pushes.size() : std::min<std::size_t>(count, plan.pushes.size());
+  const CollisionChecker checker = data_->checkerWith(placeObstacles(nearest, data_->objects));
+  std::vector<bool> is_hit(nearest.size(), false);
+  const auto note = [&](const Footprint& footprint, const Pose2& map_T_body) {
+    if (!checker.collides(footprint, map_T_body)) return;
+    for (const Contact& contact : checker.contacts(footprint, map_T_body)) {
+      if (contact.with == Contact::With::kObstacle) is_hit[contact.obstacle] = true;
+    }
+  };
   const double step_m = kStepPerCell * data_->checker.columns().resolution_m;
-  PushChecker alone = data_->pushChecker(plan.object.model, {});
-  std::vector<std::pair<PreparedCase, Pose2>> safe;  // What hits the map anyway blames nobody.
-  for (std::size_t i = 0; i < pushes; ++i) {
-    const PlannedPush& push = plan.pushes[i];
+  const double radius_m = data_->objects.at(plan.object.model).radius_m;
+  const Footprint& object = *data_->footprints.at(plan.object.model).grown;
+  for (const PlannedPush& push : nextPushes(plan, count)) {
     const Case* push_case = findCase(cases, push.case_id);
     if (push_case == nullptr) continue;
-    const auto prepared =
-        prepareCases({*push_case}, plan.zeta, step_m, data_->objects.at(plan.object.model).radius_m,
-                     data_->robot.radius_m);
-    if (alone.conflict(prepared.front(), push.map_T_start) == PushConflict::kNone) {
-      safe.emplace_back(prepared.front(), push.map_T_start);
+    const PreparedCase prepared =
+        prepareCase(*push_case, plan.zeta, step_m, radius_m, data_->robot.radius_m);
+    for (const Pose2& pose : prepared.object_path) note(object, push.map_T_start * pose);
+    for (const Pose2& pose : prepared.start_T_sigma) note(object, push.map_T_start * pose);
+    note(object, push.map_T_start * prepared.start_outcome.mean);
+    for (const Pose2& pose : prepared.robot_path) {
+      note(*data_->robot_footprint, push.map_T_start * pose);
     }
   }
-  for (const PlacedObject& obstacle : nearest) {
-    PushChecker together =
-        data_->pushChecker(plan.object.model, placeObstacles({obstacle}, data_->objects));
-    const bool is_hit = std::any_of(safe.begin(), safe.end(), [&together](const auto& push) {
-      return together.conflict(push.first, push.second) != PushConflict::kNone;
-    });
-    if (is_hit) ids.push_back(obstacle.id);
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    if (is_hit[i]) ids.push_back(nearest[i].id);
   }
   return ids;
 }
@@ -100,16 +108,16 @@ std::vector<std::string> PushPlanner::inTheRobotsWay(const PlacedObject& object,
 
 namespace {
 
-/// Everything that the plan's object and the robot pushing it will pass over.
-void addWay(const PushPlan& plan, const std::vector<Case>& cases, const ObjectModel& object,
-            const RobotModel& robot, double step_m, Way* way) {
+/// Everything that the plan's object and the robot pushing it will pass over in the next pushes.
+void addWay(const PushPlan& plan, int count, const std::vector<Case>& cases,
+            const ObjectModel& object, const RobotModel& robot, double step_m, Way* way) {
   const Shadow object_outline = outlineOf(object.solid);
   const Shadow robot_outline = outlineOf(robot.solid);
-  for (const PlannedPush& push : plan.pushes) {
+  for (const PlannedPush& push : nextPushes(plan, count)) {
     const Case* push_case = findCase(cases, push.case_id);
     if (push_case == nullptr) continue;
     const PreparedCase prepared =
-        prepareCases({*push_case}, plan.zeta, step_m, object.radius_m, robot.radius_m).front();
+        prepareCase(*push_case, plan.zeta, step_m, object.radius_m, robot.radius_m);
     const auto add = [&](const Shadow& outline, const std::vector<Pose2>& path) {
       for (std::size_t i = 0; i < path.size(); i += kStride) {
         way->add(outline, push.map_T_start * path[i]);
@@ -125,6 +133,48 @@ void addWay(const PushPlan& plan, const std::vector<Case>& cases, const ObjectMo
     way->add(robot_outline,
              push.map_T_start * Pose2(begin.x() + behind.x(), begin.y() + behind.y(), begin.yaw()));
   }
+}
+
+/// What a place out of the way has to be, the best first.
+struct ClearingLevel {
+  bool all_pushes;  ///< Off all pushes to come, or off the next ones only.
+  double needed_m;  ///< Least distance from them: poses are estimates.
+  double zeta;      ///< Of the obstacle's pushes.
+};
+constexpr ClearingLevel kLevels[] = {
+    {true, 0.05, 3.0}, {true, 0.05, 1.0},  {false, 0.05, 3.0}, {false, 0.05, 1.0},
+    {true, 0.05, 0.0}, {false, 0.05, 0.0}, {false, 0.01, 0.0},
+};
+
+/// Where an obstacle should not stand.
+struct Avoided {
+  const Way& way;
+  const Way& others;
+  double needed_m;
+};
+
+ClearingChain clearFrom(const ClearingRequest& request, const SearchProblem& search,
+                        const CaseSet& set, const Avoided& avoided, PushChecker* push_checker,
+                        ApproachVerifier* approaches, const SearchClock& clock) {
+  const Shadow outline = outlineOf(search.object.solid);
+  const ClearingProblem clearing{
+      set.cases,
+      set.time,
+      *push_checker,
+      request.obstacle.map_T_object,
+      request.map_T_robot,
+      search.options.spacing_m,
+      search.object.gyration_radius_m,
+      kMaxNodes,
+      2.0 * search.robot.radius_m + kPassing_m,
+      avoided.needed_m,
+      [&](const Pose2& pose) { return avoided.way.distance(outline, pose, kSightline_m); },
+      [&](const Pose2& pose) { return avoided.others.distance(outline, pose, kSightline_m); },
+      [&](const Pose2& pose, int previous, int next) {
+        const PreparedCase* before = previous < 0 ? nullptr : &set.cases[previous];
+        return approaches->canApproach(pose, before, set.cases[next]);
+      }};
+  return searchClearing(clearing, [&clock] { return clock.isOver(); });
 }
 
 ClearingResult notCleared(const std::string& why) {
@@ -149,7 +199,8 @@ ClearingResult PushPlanner::clear(const ClearingRequest& request, const std::vec
   }
   std::vector<const Case*> own;
   for (const Case& each : cases) {
-    if (isFor(each, request.obstacle.model, data_->robot.name)) own.push_back(&each);
+    const bool is_whole = each.id >= 0;  // There is no need to be careful with short steps.
+    if (is_whole && isFor(each, request.obstacle.model, data_->robot.name)) own.push_back(&each);
   }
   if (own.empty()) return notCleared("there are no cases of " + request.obstacle.model);
   return data_->clearAway(request, plan_request, own, cases, clock);
@@ -164,54 +215,42 @@ ClearingResult PushPlanner::Data::clearAway(const ClearingRequest& request,
   PushChecker push_checker = pushChecker(request.obstacle.model, standing);
   push_checker.tolerateStart(request.obstacle.map_T_object);
   const SearchProblem search = problem(plan_request, own, standing);
-  const ObjectModel& model = search.object;
   const double step_m = kStepPerCell * checker.columns().resolution_m;
-  Way way;
+  Way all_pushes;
+  Way next_pushes;
   for (const PushPlan& plan : request.ways) {
-    addWay(plan, cases, objects.at(plan.object.model), robot, step_m, &way);
+    const ObjectModel& object = objects.at(plan.object.model);
+    addWay(plan, -1, cases, object, robot, step_m, &all_pushes);
+    addWay(plan, request.next_pushes, cases, object, robot, step_m, &next_pushes);
   }
   Way others;
   for (const PlacedObject& other : request.standing) {
     others.add(outlineOf(objects.at(other.model).solid), other.map_T_object);
   }
-  const Shadow outline = outlineOf(model.solid);
   ApproachVerifier approaches_of(search, push_checker.collisions());
   ClearingResult result;
   result.explanation = "no push of " + request.obstacle.model +
                        " leads out of the way; clear some space around it by hand";
-  for (const SafetyLevel& safety : safetyLevels(RiskOptions{}, options.zeta)) {
+  for (const ClearingLevel& level : kLevels) {
+    const SafetyLevel safety{std::min(level.zeta, options.zeta), {}};
     const auto set = caseSetFor(search, push_checker, safety.zeta, clock);
-    if (set == nullptr) break;
-    const ClearingProblem clearing{
-        set->cases,
-        set->time,
-        push_checker,
-        request.obstacle.map_T_object,
-        request.map_T_robot,
-        options.spacing_m,
-        model.gyration_radius_m,
-        kMaxNodes,
-        2.0 * robot.radius_m + kPassing_m,
-        kNeeded_m,
-        [&](const Pose2& pose) { return way.distance(outline, pose, kSightline_m); },
-        [&](const Pose2& pose) { return others.distance(outline, pose, kSightline_m); },
-        [&](const Pose2& pose, int previous, int next) {
-          const PreparedCase* before = previous < 0 ? nullptr : &set->cases[previous];
-          return approaches_of.canApproach(pose, before, set->cases[next]);
-        }};
-    const ClearingChain chain = searchClearing(clearing, [&clock] { return clock.isOver(); });
+    if (set == nullptr) return notCleared("no time was left to look for pushes");
+    const Way& way = level.all_pushes ? all_pushes : next_pushes;
+    const ClearingChain chain = clearFrom(request, search, *set, {way, others, level.needed_m},
+                                          &push_checker, &approaches_of, clock);
     result.nodes += chain.nodes;
-    if (!chain.found) {
-      if (clock.isOver()) return notCleared("no time was left to look for pushes");
-      continue;
+    if (chain.found) {
+      result.found = true;
+      result.off_all_pushes = level.all_pushes;
+      result.expected_s = chain.cost_s;
+      result.distance_m = chain.distance_m;
+      result.plan = planOf(plan_request, set->cases, chain.pushes, safety);
+      result.explanation = std::to_string(chain.pushes.size()) + " pushes bring " +
+                           request.obstacle.id + " out of the way" +
+                           (level.all_pushes ? "" : " of the next pushes");
+      return result;
     }
-    result.found = true;
-    result.expected_s = chain.cost_s;
-    result.distance_m = chain.distance_m;
-    result.plan = planOf(plan_request, set->cases, chain.pushes, safety);
-    result.explanation = std::to_string(chain.pushes.size()) + " pushes bring " +
-                         request.obstacle.id + " out of the way";
-    return result;
+    if (clock.isOver()) return notCleared("no time was left to look for pushes");
   }
   return result;
 }

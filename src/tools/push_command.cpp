@@ -22,6 +22,7 @@ struct PushArguments {
   PlannerArguments planner;
   bool no_adapt = false;
   bool clear_obstacles = false;
+  int clear_ahead = ClearWayOptions().pushes_ahead;
   bool keep = false;
   CasterModel caster_model = CasterModel::kFeatherstone;
   std::optional<Load> load;
@@ -98,7 +99,7 @@ void keepWhatWasLearnt(const PushArguments& arguments, const std::string& object
   AdaptingCases adapting(&base, {});
   adapting.tell(object, contextOf(arguments));
   for (const PushReport& report : reports) {
-    if (isObservation(report)) {
+    if (isObservation(report) && report.case_id > 0) {
       adapting.learnFrom(report);
     }
   }
@@ -126,6 +127,8 @@ int push(const PushArguments& arguments) {
   }
   options.time_limit_s = arguments.time_limit_s;
   options.task.plan_deadline_s = kPlanDeadlineS;
+  options.task.clear.deadline_s = kPlanDeadlineS;
+  options.task.clear.pushes_ahead = arguments.clear_ahead;
   PushProgress progress;
   const PushRunResult result =
       runPushTask(task.catalog, task.problem, task.cases, task.map, options,
@@ -186,6 +189,11 @@ void addPushCommand(CLI::App& app, Run& run) {
                     "Push other objects whose cases are in the case base out of the way where that "
                     "is expected to "
                     "be quicker than going around; without it they are fixed");
+  command
+      ->add_option("--clear-ahead", arguments->clear_ahead,
+                   "With --clear-obstacles: pushes that must be clear before the next one is made")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command->add_flag("--keep", arguments->keep,
                     "Write the adapted cases to the case base: those learnt with another load are "
                     "copied for this one first; without it the file is not changed");

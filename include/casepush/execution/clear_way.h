@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,20 +13,25 @@ namespace casepush {
 
 struct ClearWayOptions {
   ExecutePushOptions push;
-  int max_pushes = 20;          ///< Of all obstacles together.
-  int max_depth = 3;            ///< Of obstacles that are in the way of obstacles.
+  int max_pushes = 20;  ///< Of all obstacles together.
+  int max_depth = 3;    ///< Of obstacles that are in the way of obstacles.
+  /// Pushes that must be clear before the next one is made. In front of an obstacle there may be no
+  /// room left to push it, so it is cleared from some way off.
+  int pushes_ahead = 3;
+  double deadline_s = 2.0;      ///< Wall time to look for the pushes of one obstacle.
   double look_timeout_s = 5.0;  ///< Wait for an obstacle to come to rest.
   void validate() const;        ///< @throws InputError listing every violation.
 };
 
 /// What clearing needs from outside its own logic; all are required.
 struct ClearWayServices {
-  /// Ids of the movable objects that the plan's next push, or the robot's way to it, would hit.
-  std::function<std::vector<std::string>(const PushPlan&, const Observation&)> blockers;
-  /// The same for all pushes of a plan, among the given objects, without the robot's ways.
-  std::function<std::vector<std::string>(const PushPlan&, const std::vector<PlacedObject>&)>
-      in_the_way;
+  /// Ids of the movable objects that so many of the plan's next pushes, or the robot's way to the
+  /// first of them, would hit.
+  std::function<std::vector<std::string>(const PushPlan&, const Observation&, int pushes)> blockers;
   std::function<ClearingResult(const ClearingRequest&)> clear;
+  /// The rest of an obstacle's plan from where it came to rest; nothing if its next push would
+  /// collide.
+  std::function<std::optional<PushPlan>(const PushPlan& rest, const Observation&)> go_on;
   std::function<bool(const PlacedObject&)> is_movable;  ///< Are its cases known?
   std::function<std::vector<Case>(const std::string& model)> cases;
   std::function<ApproachPlanner(const std::string& object_id)> approach;
@@ -39,19 +45,23 @@ struct ClearWayServices {
 ClearWayServices clearWayServices(const PushPlanner& planner, const std::string& robot,
                                   std::function<std::vector<Case>()> cases);
 
-/// Pushes movable obstacles out of the way of a plan's next push (paper section 4).
+/// Pushes movable obstacles out of the way of a plan's next pushes (paper section 4).
 ///
 /// One obstacle after the other: it looks who is in the way, plans pushes that bring it out of the
-/// way of the whole rest of the plan, and executes the first of them; then it looks again. If an
-/// obstacle cannot be pushed away because others stand around it, those are cleared first, up to a
-/// bounded depth. Succeeds once nothing is in the way; fails, naming the obstacle, if it cannot be
-/// brought away.
+/// way of the whole rest of the plan, or where there is no room for that of the next pushes, and
+/// executes them, anew from where the obstacle comes to rest if it is elsewhere than expected; then
+/// it looks again. If an obstacle cannot be pushed away because others stand around it, those are
+/// cleared first, up to a bounded depth. Succeeds once nothing is in the way; fails, naming the
+/// obstacle, if it cannot be brought away.
 class ClearWay : public Behaviour {
  public:
   /// @param way  Of the object to be pushed, from where it stands. @throws InputError from the
   ///   options.
   ClearWay(PushPlan way, RobotModel robot, ClearWayServices services, ClearWayOptions options);
   ~ClearWay() override;
+
+  /// Is anything in the way at all? The first tick does not look again.
+  bool isNeeded(const Observation& observation);
 
   Tick tick(const Observation& observation) override;
   std::string describe() const override;

@@ -109,11 +109,16 @@ struct PushTaskServices {
       const PushPlan& rest, const Pose2& map_T_object, const std::vector<Case>& cases,
       const std::vector<PlacedObject>& obstacles)>;
 
+  using InTheWay = std::function<std::vector<std::string>(
+      const PushPlan& plan, const std::vector<PlacedObject>& objects)>;
+
   PlanClient* plans = nullptr;           ///< Must outlive the task.
   const PushPlanner* checker = nullptr;  ///< For continue_plan and approach, unless they are given;
                                          ///< must outlive the task.
   ContinuePlan continue_plan;  ///< To be given if the planner may be replaced, e.g. by a new map.
   ApproachPlanner approach;
+  InTheWay in_the_way;  ///< Ids of the objects that any push of a plan hits; by the checker if it
+                        ///< is not given, and without one nobody.
   std::function<std::vector<Case>()> cases;  ///< Current cases of all objects.
   /// What pushing others out of the way takes; absent: they stand still. on_report is that below.
   std::optional<ClearWayServices> clearing;
@@ -126,10 +131,11 @@ struct PushTaskServices {
 /// Looks until the object is seen at rest, asks for a plan, and executes it push by push. An object
 /// that was seen before and is out of sight is searched (ObjectSearch). After
 /// each push it goes on with the plan, re-anchored at the observed pose and with the cases as
-/// adapted by then, unless its next pushes would collide or it would end too far from the goal
-/// (RestOptions); then it plans anew. A push whose object leaves its expected course is broken off.
-/// The task has succeeded once the object rests within the tolerance by some margin. Where no plan
-/// for that is found, the bare tolerance is enough. docs/execution.md says why.
+/// adapted by then, unless its next pushes would collide, an object in the way came in sight since,
+/// or it would end too far from the goal (RestOptions); then it plans anew. A push whose object
+/// leaves its expected course is broken off. The task has succeeded once the object rests within
+/// the tolerance by some margin. Where no plan for that is found, the bare tolerance is enough.
+/// docs/execution.md says why.
 ///
 /// The task itself changes no case: whoever receives the reports adapts them if the goal says so.
 class PushTask : public Behaviour {

@@ -12,6 +12,8 @@ struct ClearingRequest {
   PlacedObject obstacle;
   /// Plans whose ways it is to leave: their objects and the robot pushing them, at all pushes.
   std::vector<PushPlan> ways;
+  /// If no place off all pushes is found: so many of the next ones of each plan.
+  int next_pushes = 3;
   std::vector<PlacedObject> standing;  ///< All else that is known; it stands still.
   Pose2 map_T_robot;
   double deadline_s = 2.0;  ///< Wall time.
@@ -19,10 +21,11 @@ struct ClearingRequest {
 
 struct ClearingResult {
   bool found = false;
-  std::string explanation;  ///< One line for a person, also if found.
-  PushPlan plan;            ///< Of the obstacle.
-  double expected_s = 0.0;  ///< Of all its pushes, with the robot's ways between them.
-  double distance_m = 0.0;  ///< Of the obstacle from the ways and from what stands, afterwards.
+  std::string explanation;      ///< One line for a person, also if found.
+  PushPlan plan;                ///< Of the obstacle.
+  double expected_s = 0.0;      ///< Of all its pushes, with the robot's ways between them.
+  bool off_all_pushes = false;  ///< Or else off the next ones only.
+  double distance_m = 0.0;      ///< Of the obstacle from the ways and from what stands, afterwards.
   int nodes = 0;
 };
 

@@ -16,7 +16,7 @@ class ClearWayTest : public testing::Test {
   ClearWayTest() {
     way.object = {"table_1", "disc", Pose2(-3.0, 0.0, 0.0)};
     way.pushes.resize(3);
-    services.blockers = [this](const PushPlan& plan, const Observation& now) {
+    services.blockers = [this](const PushPlan& plan, const Observation& now, int) {
       const ObjectState* chair = now.object("chair_1");
       const bool blocked = plan.object.id == "table_1" && chair != nullptr &&
                            std::abs(chair->map_T_object.y()) < kClearM;
@@ -26,6 +26,7 @@ class ClearWayTest : public testing::Test {
       requests.push_back(request);
       return sideways(request);
     };
+    services.go_on = [](const PushPlan&, const Observation&) { return std::optional<PushPlan>(); };
     services.is_movable = [](const PlacedObject&) { return true; };
     services.cases = [](const std::string&) { return learntCases(); };
     services.approach = [](const std::string&) { return detour; };
@@ -90,6 +91,25 @@ TEST_F(ClearWayTest, NamesWhatCannotBeClearedAndCommandsZero) {
   EXPECT_TRUE(isZero(clear.tick(world.observe()).command.twist));
 }
 
+TEST_F(ClearWayTest, GoesOnWithThePlanOfAnObstacleAsLongAsItMay) {
+  services.clear = [this](const ClearingRequest& request) {
+    requests.push_back(request);
+    ClearingResult result = sideways(request);
+    result.plan.pushes.push_back(result.plan.pushes.front());
+    return result;
+  };
+  std::size_t rests = 0;
+  services.go_on = [&rests](const PushPlan& rest, const Observation&) {
+    ++rests;
+    return rest.pushes.empty() ? std::nullopt : std::optional<PushPlan>(rest);
+  };
+  ClearWay clear = clearWay();
+  ASSERT_EQ(run(clear, world, 300.0), BehaviourStatus::kSucceeded) << clear.describe();
+  EXPECT_EQ(clear.pushes(), 2);
+  EXPECT_EQ(rests, 2U);
+  EXPECT_EQ(requests.size(), 1U);
+}
+
 TEST_F(ClearWayTest, GivesUpAfterTheAllowedPushes) {
   world.object_fixed = true;
   options.max_pushes = 2;
@@ -133,7 +153,7 @@ TEST_F(ClearWayTest, ClearsFirstWhatIsInTheWayOfTheObstacle) {
     return std::any_of(request.standing.begin(), request.standing.end(),
                        [](const PlacedObject& each) { return each.id == "crate_1"; });
   };
-  services.blockers = [&](const PushPlan& plan, const Observation& now) {
+  services.blockers = [&](const PushPlan& plan, const Observation& now, int) {
     if (plan.object.id == "chair_1" && !crate_is_away) return std::vector<std::string>{"crate_1"};
     const bool blocked =
         plan.object.id == "table_1" && std::abs(now.object("chair_1")->map_T_object.y()) < kClearM;
