@@ -146,7 +146,28 @@ constexpr ClearingLevel kLevels[] = {
     {true, 0.05, 0.0}, {false, 0.05, 0.0}, {false, 0.01, 0.0},
 };
 
-/// Where an obstacle should not stand.
+/// What an obstacle is to leave free.
+struct KeptFree {
+  Way all_pushes;
+  Way next_pushes;
+  Way others;  ///< Where other objects stand.
+};
+
+KeptFree keptFree(const ClearingRequest& request, const std::vector<Case>& cases,
+                  const ObjectModels& objects, const RobotModel& robot, double step_m) {
+  KeptFree free;
+  for (const PushPlan& plan : request.ways) {
+    const ObjectModel& object = objects.at(plan.object.model);
+    addWay(plan, -1, cases, object, robot, step_m, &free.all_pushes);
+    addWay(plan, request.next_pushes, cases, object, robot, step_m, &free.next_pushes);
+  }
+  for (const PlacedObject& other : request.standing) {
+    free.others.add(outlineOf(objects.at(other.model).solid), other.map_T_object);
+  }
+  return free;
+}
+
+/// The same as one search sees it.
 struct Avoided {
   const Way& way;
   const Way& others;
@@ -215,18 +236,8 @@ ClearingResult PushPlanner::Data::clearAway(const ClearingRequest& request,
   PushChecker push_checker = pushChecker(request.obstacle.model, standing);
   push_checker.tolerateStart(request.obstacle.map_T_object);
   const SearchProblem search = problem(plan_request, own, standing);
-  const double step_m = kStepPerCell * checker.columns().resolution_m;
-  Way all_pushes;
-  Way next_pushes;
-  for (const PushPlan& plan : request.ways) {
-    const ObjectModel& object = objects.at(plan.object.model);
-    addWay(plan, -1, cases, object, robot, step_m, &all_pushes);
-    addWay(plan, request.next_pushes, cases, object, robot, step_m, &next_pushes);
-  }
-  Way others;
-  for (const PlacedObject& other : request.standing) {
-    others.add(outlineOf(objects.at(other.model).solid), other.map_T_object);
-  }
+  const KeptFree free =
+      keptFree(request, cases, objects, robot, kStepPerCell * checker.columns().resolution_m);
   ApproachVerifier approaches_of(search, push_checker.collisions());
   ClearingResult result;
   result.explanation = "no push of " + request.obstacle.model +
@@ -235,8 +246,8 @@ ClearingResult PushPlanner::Data::clearAway(const ClearingRequest& request,
     const SafetyLevel safety{std::min(level.zeta, options.zeta), {}};
     const auto set = caseSetFor(search, push_checker, safety.zeta, clock);
     if (set == nullptr) return notCleared("no time was left to look for pushes");
-    const Way& way = level.all_pushes ? all_pushes : next_pushes;
-    const ClearingChain chain = clearFrom(request, search, *set, {way, others, level.needed_m},
+    const Way& way = level.all_pushes ? free.all_pushes : free.next_pushes;
+    const ClearingChain chain = clearFrom(request, search, *set, {way, free.others, level.needed_m},
                                           &push_checker, &approaches_of, clock);
     result.nodes += chain.nodes;
     if (chain.found) {
