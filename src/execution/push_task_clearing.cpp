@@ -51,7 +51,8 @@ bool isAmong(const std::vector<PlacedObject>& known, const PlacedObject& object)
 
 // An object that was first seen after the plan was made, or has moved since, and that any push of
 // the plan's rest would hit: to find that out only in front of it may be too late to turn round.
-std::string PushTask::Data::newcomerInTheWay(const PushPlan& rest, const Observation& observation) {
+std::string PushTask::Data::newcomerInTheWay(const PushPlan& rest_of_plan,
+                                             const Observation& observation) {
   const std::vector<PlacedObject> before =
       std::exchange(known, otherObjects(observation, goal.object_id));
   std::vector<PlacedObject> newcomers;
@@ -59,7 +60,7 @@ std::string PushTask::Data::newcomerInTheWay(const PushPlan& rest, const Observa
     if (!isAmong(before, other)) newcomers.push_back(other);
   }
   if (newcomers.empty()) return {};
-  const std::vector<std::string> ids = services.in_the_way(rest, newcomers);
+  const std::vector<std::string> ids = services.in_the_way(rest_of_plan, newcomers);
   return ids.empty() ? std::string() : ids.front();
 }
 

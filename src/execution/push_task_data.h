@@ -58,7 +58,7 @@ struct PushTask::Data {
   Tick clearOn(const Observation& observation);
   bool isMovable(const PlacedObject& object) const;
   std::vector<PlacedObject> obstacles(const Observation& observation) const;
-  std::string newcomerInTheWay(const PushPlan& rest, const Observation& observation);
+  std::string newcomerInTheWay(const PushPlan& rest_of_plan, const Observation& observation);
   bool asksForWayAround(const PlanResult& result, const Observation& observation);
   double clearingTimeS(const PushPlan& way, const Observation& observation) const;
   PlanResult quicker(const PlanResult& around, const Observation& observation);
