@@ -22,7 +22,7 @@ class PushTaskObstaclesTest : public PushTaskTest {
     };
   }
 
-  /// The other object can be pushed, but nowhere to.
+  /// The other object can be pushed, but nowhere to, and there is no way around it.
   void makeMovable() {
     ClearWayServices clearing;
     clearing.blockers = [this](const PushPlan&, const Observation&, int) {
@@ -40,6 +40,11 @@ class PushTaskObstaclesTest : public PushTaskTest {
     clearing.approach = [](const std::string&) { return detour; };
     services.clearing = clearing;
     goal.clear_obstacles = true;
+    plans.answer = [](const PlanRequest& request) {
+      PlanResult none;
+      none.status = PlanStatus::kUnreachable;
+      return request.obstacles.empty() ? searchPlan(request) : none;
+    };
   }
 
   Observation observe() {
@@ -109,11 +114,6 @@ TEST_F(PushTaskObstaclesTest, LooksAgainIfItWasMoved) {
 TEST_F(PushTaskObstaclesTest, LooksOnceWhoIsInTheWayWhenClearingBegins) {
   makeMovable();
   cart_is_seen = true;
-  plans.answer = [this](const PlanRequest& request) {
-    PlanResult none;
-    none.status = PlanStatus::kUnreachable;
-    return request.obstacles.empty() ? searchPlan(request) : none;
-  };
   PushTask push_task = task();
   runUntilTrue(push_task, [&] { return push_task.progress().replans > 0; });
   EXPECT_EQ(looks, 1);
@@ -122,11 +122,6 @@ TEST_F(PushTaskObstaclesTest, LooksOnceWhoIsInTheWayWhenClearingBegins) {
 TEST_F(PushTaskObstaclesTest, WhatCannotBeClearedIsFixedUntilThereIsNoPlanWithIt) {
   makeMovable();
   cart_is_seen = true;
-  plans.answer = [this](const PlanRequest& request) {
-    PlanResult none;
-    none.status = PlanStatus::kUnreachable;
-    return request.obstacles.empty() ? searchPlan(request) : none;
-  };
   PushTask push_task = task();
   runUntilTrue(push_task, [&] { return push_task.progress().replans > 0; });
   ASSERT_EQ(push_task.progress().replan_causes.count(ReplanCause::kObstacleStuck), 1U);
