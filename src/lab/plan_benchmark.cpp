@@ -9,6 +9,7 @@
 #include "casepush/common/violations.h"
 #include "casepush/lab/push_run.h"
 #include "casepush/world/static_map.h"
+#include "thread_time.h"
 
 namespace casepush {
 namespace {
@@ -24,8 +25,10 @@ PushPlannerOptions optionsFor(PlannerKind kind, bool improve) {
 
 PlanRun run(const PushPlanner& planner, const PlanRequest& request,
             const std::vector<Case>& cases) {
+  const double begin_s = threadSeconds();
   const PlanResult result = planner.plan(request, cases);
   PlanRun run;
+  run.cpu_s = threadSeconds() - begin_s;
   run.solved = result.status == PlanStatus::kSolved;
   run.planning_s = result.planning_s;
   run.pushes = static_cast<int>(result.plan.pushes.size());

@@ -72,13 +72,14 @@ void ExpRrt::weighEdges(int node, const PushStart& start) {
 void ExpRrt::noteBestEdge(int node) {
   const PushStart start(tree_.node(node).map_T_object);
   weighEdges(node, start);
+  std::make_heap(keys_.begin(), keys_.end(), std::greater<>());
   while (!keys_.empty()) {
-    const auto best = std::min_element(keys_.begin(), keys_.end());
-    if (!isPointless(node, best->second, start)) {
-      edges_.push({best->first, node, best->second});
+    const auto [key_s, push] = keys_.front();
+    if (!isPointless(node, push, start)) {
+      edges_.push({key_s, node, push});
       return;
     }
-    *best = keys_.back();
+    std::pop_heap(keys_.begin(), keys_.end(), std::greater<>());
     keys_.pop_back();
   }
   tree_.close(node);  // Nothing that is left can become cheaper.

@@ -18,8 +18,8 @@ nlohmann::ordered_json treesJson(const std::vector<GrowthBenchmark::Tree>& trees
   for (const GrowthBenchmark::Tree& tree : trees) {
     json.push_back({{"cases", tree.cases},
                     {"nodes", tree.nodes},
-                    {"median_s", tree.median_s},
-                    {"max_s", tree.max_s},
+                    {"median_cpu_s", tree.median_cpu_s},
+                    {"max_cpu_s", tree.max_cpu_s},
                     {"per_node_us", tree.per_node_us}});
   }
   return json;
@@ -30,8 +30,8 @@ nlohmann::ordered_json firstJson(const std::vector<GrowthBenchmark::First>& plan
   for (const GrowthBenchmark::First& first : plans) {
     json.push_back({{"cases", first.cases},
                     {"success", static_cast<double>(first.solved) / problems},
-                    {"median_s", first.median_s},
-                    {"max_s", first.max_s}});
+                    {"median_cpu_s", first.median_cpu_s},
+                    {"max_cpu_s", first.max_cpu_s}});
   }
   return json;
 }

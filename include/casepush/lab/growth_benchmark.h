@@ -24,22 +24,23 @@ struct GrowthBenchmarkOptions {
   void validate() const;  ///< @throws InputError listing every violation.
 };
 
-/// Times are wall seconds.
+/// Times are CPU time of the thread, which other work on the machine changes least; lateness is
+/// wall time.
 struct GrowthBenchmark {
   /// Whole calls of the planner that grow a tree towards a goal that it never meets.
   struct Tree {
     int cases = 0;
-    int nodes = 0;          ///< What was grown at least; fewer than asked if nothing was left.
-    double median_s = 0.0;  ///< Of a call.
-    double max_s = 0.0;
+    int nodes = 0;              ///< What was grown at least; fewer than asked if nothing was left.
+    double median_cpu_s = 0.0;  ///< Of a call.
+    double max_cpu_s = 0.0;
     double per_node_us = 0.0;  ///< Median.
   };
   /// First plans with so many cases.
   struct First {
     int cases = 0;
     int solved = 0;
-    double median_s = 0.0;
-    double max_s = 0.0;
+    double median_cpu_s = 0.0;
+    double max_cpu_s = 0.0;
   };
   /// A goal that is never met: how late do calls return?
   struct Late {

@@ -28,6 +28,7 @@ struct PlanRun {
   std::string world;
   bool solved = false;
   double planning_s = 0.0;  ///< Wall time of the whole call, the robot's paths included.
+  double cpu_s = 0.0;       ///< CPU time of the same: on a busy machine wall time says little.
   int pushes = 0;
   double length_m = 0.0;
   int nodes = 0;
