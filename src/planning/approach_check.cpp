@@ -28,9 +28,13 @@ bool isSame(const Pose2& a, const Pose2& b) {
 
 }  // namespace
 
-ApproachCheck::ApproachCheck(ApproachLibrary* library, const CollisionChecker& checker,
+ApproachCheck::ApproachCheck(ApproachLibrary* library, const ClearanceGrid& grid,
+                             const CollisionChecker& checker,
                              const std::vector<PlacedObject>& obstacles)
-    : library_(*library), checker_(checker), flood_(library->borrowFlood()) {
+    : library_(*library),
+      grid_(grid),
+      checker_(checker),
+      flood_(library->borrowFlood(grid.size())) {
   for (const PlacedObject& obstacle : obstacles) {
     obstacles_.push_back(standing(library_.clearance(obstacle.model), obstacle.map_T_object));
   }
@@ -69,9 +73,9 @@ bool ApproachCheck::isDirect(const std::string& model, const PreparedCase& previ
 }
 
 float ApproachCheck::clearanceAround(int cell, float enough_m) const {
-  float clear_m = library_.grid().clearance(cell);
+  float clear_m = grid_.clearance(cell);
   if (clear_m < enough_m || obstacles_.empty()) return clear_m;
-  const Eigen::Vector2d centre = library_.grid().centre(cell);
+  const Eigen::Vector2d centre = grid_.centre(cell);
   for (const Standing& obstacle : obstacles_) {
     clear_m = std::min(clear_m, obstacle.at(centre));
     if (clear_m < enough_m) break;
@@ -82,18 +86,17 @@ float ApproachCheck::clearanceAround(int cell, float enough_m) const {
 bool ApproachCheck::canPass(int cell) const {
   const auto least_m = static_cast<float>(library_.minClearance());
   return clearanceAround(cell, least_m) >= least_m &&
-         object_->at(library_.grid().centre(cell)) >= least_m;
+         object_->at(grid_.centre(cell)) >= least_m;
 }
 
 bool ApproachCheck::isFreeLine(const Pose2& from, const Pose2& to) const {
   constexpr double kStep_m = 0.01;
   const int steps = std::max(1, static_cast<int>(std::ceil(distance(from, to) / kStep_m)));
-  const ClearanceGrid& grid = library_.grid();
-  const auto half_diagonal_m = static_cast<float>(grid.resolution() * M_SQRT1_2);
+  const auto half_diagonal_m = static_cast<float>(grid_.resolution() * M_SQRT1_2);
   const Eigen::Vector2d along = (to.position() - from.position()) / steps;
   int free_cell = -1;
   for (int i = 0; i <= steps; ++i) {
-    const int cell = grid.cell(from.position() + i * along);
+    const int cell = grid_.cell(from.position() + i * along);
     // Free whichever way the robot faces. The object itself was looked at on the open floor.
     if (cell >= 0 && cell == free_cell) continue;
     if (cell >= 0 && clearanceAround(cell, half_diagonal_m) >= half_diagonal_m) {
@@ -108,9 +111,9 @@ bool ApproachCheck::isFreeLine(const Pose2& from, const Pose2& to) const {
 }
 
 bool ApproachCheck::canTravelAt(const Eigen::Vector2d& point) const {
-  const int cell = library_.grid().cell(point);
+  const int cell = grid_.cell(point);
   if (cell < 0) return false;
-  const Eigen::Vector2d centre = library_.grid().centre(cell);
+  const Eigen::Vector2d centre = grid_.centre(cell);
   const auto needed_m =
       static_cast<float>(std::max(library_.minClearance(), (centre - point).norm()));
   return clearanceAround(cell, needed_m) >= needed_m && object_->at(centre) >= needed_m;
@@ -118,13 +121,12 @@ bool ApproachCheck::canTravelAt(const Eigen::Vector2d& point) const {
 
 // From cell to neighbouring cell.
 bool ApproachCheck::canGoStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
-  const ClearanceGrid& grid = library_.grid();
   const int steps =
-      std::max(1, static_cast<int>(std::ceil((to - from).norm() / grid.resolution())));
+      std::max(1, static_cast<int>(std::ceil((to - from).norm() / grid_.resolution())));
   const Eigen::Vector2d along = (to - from) / steps;
   int last = -1;
   for (int i = 0; i <= steps; ++i) {
-    const int cell = grid.cell(from + i * along);
+    const int cell = grid_.cell(from + i * along);
     if (cell < 0 || (cell != last && !canPass(cell))) return false;
     last = cell;
   }
@@ -139,7 +141,7 @@ bool ApproachCheck::canGoAround(const Eigen::Vector2d& from, const Eigen::Vector
   const Eigen::Vector2d away = from - centre;
   const double begin_rad = std::atan2(away.y(), away.x());
   const double beside_m =
-      object_->clearance->beside() + library_.minClearance() + library_.grid().resolution();
+      object_->clearance->beside() + library_.minClearance() + grid_.resolution();
   const double radius_m = std::max(away.norm(), beside_m / std::cos(kChord_rad / 2.0));
   const int chords = std::max(1, static_cast<int>(std::ceil(std::abs(turn_rad) / kChord_rad)));
   Eigen::Vector2d last = from;
@@ -186,21 +188,20 @@ bool ApproachCheck::connects(const Ends& from, const Ends& to, int most_cells) {
 bool ApproachCheck::begin(const Ends& ends, Front& front) {
   front.open.clear();
   bool met = false;
-  for (const Eigen::Vector2d& end : ends) met = visit(library_.grid().cell(end), front) || met;
+  for (const Eigen::Vector2d& end : ends) met = visit(grid_.cell(end), front) || met;
   return met;
 }
 
 bool ApproachCheck::advance(Front& front) {
-  const ClearanceGrid& grid = library_.grid();
   std::pop_heap(front.open.begin(), front.open.end(), std::greater<>());
   const int cell = front.open.back().second;
   front.open.pop_back();
-  const int x = cell % grid.width();
-  const int y = cell / grid.width();
+  const int x = cell % grid_.width();
+  const int y = cell / grid_.width();
   bool met = false;
-  for (int dy = y > 0 ? -1 : 0; dy <= (y + 1 < grid.height() ? 1 : 0); ++dy) {
-    for (int dx = x > 0 ? -1 : 0; dx <= (x + 1 < grid.width() ? 1 : 0); ++dx) {
-      met = visit(cell + dy * grid.width() + dx, front) || met;
+  for (int dy = y > 0 ? -1 : 0; dy <= (y + 1 < grid_.height() ? 1 : 0); ++dy) {
+    for (int dx = x > 0 ? -1 : 0; dx <= (x + 1 < grid_.width() ? 1 : 0); ++dx) {
+      met = visit(cell + dy * grid_.width() + dx, front) || met;
     }
   }
   return met;
@@ -213,7 +214,7 @@ bool ApproachCheck::visit(int cell, Front& front) {
   if (!canPass(cell)) return false;
   if (visited == front.other_round) return true;
   visited = front.round;
-  front.open.emplace_back((library_.grid().centre(cell) - front.towards).squaredNorm(), cell);
+  front.open.emplace_back((grid_.centre(cell) - front.towards).squaredNorm(), cell);
   std::push_heap(front.open.begin(), front.open.end(), std::greater<>());
   return false;
 }
@@ -255,7 +256,7 @@ bool ApproachCheck::canReach(const PlacedObject& object, const Pose2& map_T_robo
       freeEnds(object.map_T_object, next.robot_begin, waysOf(object.model, next).object_T_predock);
   if (to.empty()) return false;
   const Ends& from = waysFrom(object, map_T_robot);
-  return canGoPlainly(from, to) || connects(from, to, library_.grid().size());
+  return canGoPlainly(from, to) || connects(from, to, grid_.size());
 }
 
 // Several pushes are tried after one another.

@@ -16,9 +16,10 @@ namespace casepush {
 /// All cases and names of models that it is asked for outlive it.
 class ApproachCheck {
  public:
-  /// @param checker  With the obstacles, without the object to be pushed. Both outlive this.
-  ApproachCheck(ApproachLibrary* library, const CollisionChecker& checker,
-                const std::vector<PlacedObject>& obstacles);
+  /// @param grid     Of the map, for the library's discs.
+  /// @param checker  With the obstacles, without the object to be pushed. All three outlive this.
+  ApproachCheck(ApproachLibrary* library, const ClearanceGrid& grid,
+                const CollisionChecker& checker, const std::vector<PlacedObject>& obstacles);
   ~ApproachCheck();
 
   /// From where `previous` left the robot to the start of `next`, with the object in between.
@@ -70,6 +71,7 @@ class ApproachCheck {
   const Ends& waysOut(const PlacedObject& object, const PreparedCase& previous);
 
   ApproachLibrary& library_;
+  const ClearanceGrid& grid_;
   const CollisionChecker& checker_;
   std::vector<Standing> obstacles_;
   std::optional<Standing> object_;  // the one that is pushed, where it now stands

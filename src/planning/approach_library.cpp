@@ -85,15 +85,15 @@ float ObjectClearance::at(const Eigen::Vector2d& object_point_m) const {
   return clearance_m_[static_cast<std::size_t>(y) * side_ + x];
 }
 
-ApproachLibrary::ApproachLibrary(const CollisionChecker& map, const RobotModel& robot,
+ApproachLibrary::ApproachLibrary(const CollisionChecker& checker, const RobotModel& robot,
                                  const ObjectModels& objects, const RobotPathOptions& options)
     : objects_(objects),
       discs_(travelDiscs(robot.solid, options.margin_m)),
-      grid_(*map.mapColumns(), discs_),
-      docking_(map.footprint(robot.solid, options.dock_margin_m)),
-      plain_(map.footprint(robot.solid)),
-      open_(openMap(map.columns().resolution_m)),
-      min_clearance_m_(std::max(0.0, grid_.resolution() * M_SQRT1_2 - options.margin_m)) {}
+      docking_(checker.footprint(robot.solid, options.dock_margin_m)),
+      plain_(checker.footprint(robot.solid)),
+      open_(openMap(checker.columns().resolution_m)),
+      min_clearance_m_(
+          std::max(0.0, checker.columns().resolution_m * M_SQRT1_2 - options.margin_m)) {}
 
 const ObjectClearance& ApproachLibrary::clearance(const std::string& model) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -115,15 +115,14 @@ std::shared_ptr<const ApproachLibrary::Ways> ApproachLibrary::ways(const std::st
   return ways_.emplace(key, std::move(made)).first->second;
 }
 
-std::unique_ptr<ApproachLibrary::Flood> ApproachLibrary::borrowFlood() {
+std::unique_ptr<ApproachLibrary::Flood> ApproachLibrary::borrowFlood(int cells) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (floods_.empty()) {
-    auto flood = std::make_unique<Flood>();
-    flood->visited.assign(grid_.size(), 0);
-    return flood;
+  auto flood = std::make_unique<Flood>();
+  if (!floods_.empty()) {
+    flood = std::move(floods_.back());
+    floods_.pop_back();
   }
-  std::unique_ptr<Flood> flood = std::move(floods_.back());
-  floods_.pop_back();
+  flood->visited.resize(cells, 0);
   return flood;
 }
 

@@ -37,8 +37,9 @@ class ObjectClearance {
 /// What approach checks need of map, robot, objects and cases, worked out once. Thread-safe.
 class ApproachLibrary {
  public:
-  ApproachLibrary(const CollisionChecker& map, const RobotModel& robot, const ObjectModels& objects,
-                  const RobotPathOptions& options);
+  /// @param checker  Of any map with the resolution of those to come.
+  ApproachLibrary(const CollisionChecker& checker, const RobotModel& robot,
+                  const ObjectModels& objects, const RobotPathOptions& options);
 
   /// Straight ways of a robot that leaves the object after a push, and that docks for one, past
   /// nothing but the object: their ends in the object's frame, the nearest first.
@@ -64,20 +65,20 @@ class ApproachLibrary {
     std::vector<std::pair<double, int>> ahead;  // cells to go on from, the nearest to the end first
     std::vector<std::pair<double, int>> back;
   };
-  std::unique_ptr<Flood> borrowFlood();
+  std::unique_ptr<Flood> borrowFlood(int cells);
   void giveBack(std::unique_ptr<Flood> flood);
 
   const Solid& solid(const std::string& model) const { return objects_.at(model).solid; }
-  const ClearanceGrid& grid() const { return grid_; }
+  /// The robot where it travels: what the grid for ApproachCheck is made with.
+  const std::vector<TravelDisc>& discs() const { return discs_; }
   const Footprint& docking() const { return *docking_; }
   double minClearance() const { return min_clearance_m_; }
 
  private:
   Ways findWays(const std::string& model, const PreparedCase& push_case);
 
-  const ObjectModels& objects_;
-  std::vector<TravelDisc> discs_;
-  ClearanceGrid grid_;
+  const ObjectModels objects_;
+  const std::vector<TravelDisc> discs_;
   std::shared_ptr<const Footprint> docking_;
   std::shared_ptr<const Footprint> plain_;
   CollisionChecker open_;

@@ -19,6 +19,31 @@ double reach(const Shadow& shadow) {
   return result + shadow.radius_m;
 }
 
+double widestOf(const std::vector<TravelDisc>& discs) {
+  double widest_m = 0.0;
+  for (const TravelDisc& disc : discs) widest_m = std::max(widest_m, disc.radius_m);
+  return widest_m;
+}
+
+/// What lies farther away than this does not matter.
+int rangeInCells(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs) {
+  return static_cast<int>(
+             std::ceil((ClearanceGrid::kMost_m + widestOf(discs)) / columns.resolution_m)) +
+         1;
+}
+
+/// 1 where something of a box's cells is occupied in the slices, row by row.
+std::vector<std::uint8_t> occupiedIn(const CollisionChecker::Columns& columns, const CellBox& box,
+                                     std::uint64_t slices) {
+  std::vector<std::uint8_t> occupied;
+  occupied.reserve(static_cast<std::size_t>(box.width()) * box.height());
+  for (int y = box.y0; y <= box.y1; ++y) {
+    const std::uint64_t* row = columns.bits.data() + static_cast<std::ptrdiff_t>(y) * columns.width;
+    for (int x = box.x0; x <= box.x1; ++x) occupied.push_back((row[x] & slices) != 0);
+  }
+  return occupied;
+}
+
 }  // namespace
 
 std::uint64_t slicesOf(const TravelDisc& disc, double slice_m) {
@@ -59,31 +84,61 @@ std::vector<TravelDisc> travelDiscs(const Solid& solid, double margin_m) {
 
 ClearanceGrid::ClearanceGrid(const CollisionChecker::Columns& columns,
                              const std::vector<TravelDisc>& discs)
-    : origin_m_(columns.origin_m),
+    : ClearanceGrid(columns, discs, {0, columns.width - 1, 0, columns.height - 1}) {}
+
+ClearanceGrid::ClearanceGrid(const CollisionChecker::Columns& columns,
+                             const std::vector<TravelDisc>& discs, const CellBox& box)
+    : origin_m_(columns.origin_m + columns.resolution_m * Eigen::Vector2d(box.x0, box.y0)),
       resolution_m_(columns.resolution_m),
-      width_(columns.width),
-      height_(columns.height),
-      clearance_m_(columns.bits.size()) {
+      width_(box.width()),
+      height_(box.height()),
+      clearance_m_(static_cast<std::size_t>(width_) * height_) {
+  const double widest_m = widestOf(discs);
   for (int cell = 0; cell < size(); ++cell) {
-    const int x = cell % width_;
-    const int y = cell / width_;
-    const int border = std::min({x, y, width_ - 1 - x, height_ - 1 - y});
-    clearance_m_[cell] = static_cast<float>((border + 0.5) * resolution_m_);
+    const int x = box.x0 + cell % width_;
+    const int y = box.y0 + cell / width_;
+    const int border = std::min({x, y, columns.width - 1 - x, columns.height - 1 - y});
+    const double clearance = (border + 0.5) * resolution_m_ - widest_m;
+    clearance_m_[cell] = static_cast<float>(std::min(clearance, kMost_m));
   }
-  double widest_m = 0.0;
-  for (const TravelDisc& disc : discs) widest_m = std::max(widest_m, disc.radius_m);
-  for (float& value : clearance_m_) value -= static_cast<float>(widest_m);
-  std::vector<std::uint8_t> occupied(columns.bits.size());
+  const CellBox seen = box.grown(rangeInCells(columns, discs), {columns.width, columns.height});
   for (const TravelDisc& disc : discs) {
-    const std::uint64_t mask = slicesOf(disc, columns.slice_m);
-    std::transform(columns.bits.begin(), columns.bits.end(), occupied.begin(),
-                   [mask](std::uint64_t bits) { return (bits & mask) != 0; });
-    const std::vector<float> distance = distanceToSquares(occupied, width_, height_);
-    for (std::size_t i = 0; i < distance.size(); ++i) {
-      const double clearance = distance[i] * resolution_m_ - disc.radius_m;
-      clearance_m_[i] = std::min(clearance_m_[i], static_cast<float>(clearance));
+    const std::vector<float> distance = distanceToSquares(
+        occupiedIn(columns, seen, slicesOf(disc, columns.slice_m)), seen.width(), seen.height());
+    const float* first = distance.data() +
+                         static_cast<std::ptrdiff_t>(box.y0 - seen.y0) * seen.width() + box.x0 -
+                         seen.x0;
+    for (int cell = 0; cell < size(); ++cell) {
+      const float cells =
+          first[static_cast<std::ptrdiff_t>(cell / width_) * seen.width() + cell % width_];
+      const double clearance = cells * resolution_m_ - disc.radius_m;
+      clearance_m_[cell] = std::min(clearance_m_[cell], static_cast<float>(clearance));
     }
   }
+}
+
+CellBox ClearanceGrid::affected(const CollisionChecker::Columns& columns,
+                                const std::vector<TravelDisc>& discs,
+                                const CollisionChecker::Area& changed) {
+  const CellBox box = columns.cellsIn(changed);
+  if (box.empty()) return {};
+  return box.grown(rangeInCells(columns, discs), {columns.width, columns.height});
+}
+
+ClearanceGrid ClearanceGrid::updated(const CollisionChecker::Columns& columns,
+                                     const std::vector<TravelDisc>& discs,
+                                     const CollisionChecker::Area& changed) const {
+  ClearanceGrid result(*this);
+  const CellBox box = affected(columns, discs, changed);
+  if (box.empty()) return result;
+  const ClearanceGrid part(columns, discs, box);
+  for (int y = 0; y < part.height(); ++y) {
+    const auto row = part.clearance_m_.begin() + static_cast<std::ptrdiff_t>(y) * part.width();
+    std::copy_n(
+        row, part.width(),
+        result.clearance_m_.begin() + static_cast<std::ptrdiff_t>(box.y0 + y) * width_ + box.x0);
+  }
+  return result;
 }
 
 void ClearanceGrid::add(const PlacedSolid& placed, const std::vector<TravelDisc>& discs,

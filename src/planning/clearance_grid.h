@@ -21,12 +21,28 @@ std::uint64_t slicesOf(const TravelDisc& disc, double slice_m);
 /// A disc for each height interval between the ends of the solid's parts, grown by `margin_m`.
 std::vector<TravelDisc> travelDiscs(const Solid& solid, double margin_m);
 
-/// For each cell's centre, how far the stack of discs is from touching anything [m].
+/// For each cell's centre, how far the stack of discs is from touching anything, up to kMost_m.
 class ClearanceGrid {
  public:
+  static constexpr double kMost_m = 1.0;  ///< More is not told apart.
+
   /// Free distance in the map alone: exact between a cell's centre and the occupied cells' squares
   /// in the height slices that a disc reaches into, and the map's border.
   ClearanceGrid(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs);
+
+  /// Some cells of the grid of the whole map; `box` lies within it.
+  ClearanceGrid(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs,
+                const CellBox& box);
+
+  /// For columns of the same extent that differ only within an area: as if made anew.
+  ClearanceGrid updated(const CollisionChecker::Columns& columns,
+                        const std::vector<TravelDisc>& discs,
+                        const CollisionChecker::Area& changed) const;
+
+  /// Cells whose clearance may change with what lies in an area.
+  static CellBox affected(const CollisionChecker::Columns& columns,
+                          const std::vector<TravelDisc>& discs,
+                          const CollisionChecker::Area& changed);
 
   /// Lowers the clearance around a solid, exactly up to `range_m`, above which it does not matter.
   void add(const PlacedSolid& placed, const std::vector<TravelDisc>& discs, double range_m);

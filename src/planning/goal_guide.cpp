@@ -22,23 +22,46 @@ constexpr int kLongestStep = static_cast<int>(2.0 * kHalfDiagonal * ObjectRoom::
 }  // namespace
 
 ObjectRoom::ObjectRoom(const CollisionChecker::Columns& columns, const Solid& object)
-    : origin_m_(columns.origin_m), inner_(innerDiscs(object)), reach_m_(0.0) {
-  const int side = std::max(1, static_cast<int>(std::lround(kCell_m / columns.resolution_m)));
-  cell_m_ = side * columns.resolution_m;
-  width_ = (columns.width + side - 1) / side;
-  height_ = (columns.height + side - 1) / side;
-  reach_m_ = circumscribedRadius(object);
-  const ClearanceGrid inside(columns, inner_);
-  const ClearanceGrid around(columns, travelDiscs(object, 0.0));
+    : origin_m_(columns.origin_m),
+      side_(std::max(1, static_cast<int>(std::lround(kCell_m / columns.resolution_m)))),
+      cell_m_(side_ * columns.resolution_m),
+      width_((columns.width + side_ - 1) / side_),
+      height_((columns.height + side_ - 1) / side_),
+      inner_(innerDiscs(object)),
+      outer_(travelDiscs(object, 0.0)),
+      reach_m_(circumscribedRadius(object)),
+      factors_(static_cast<std::size_t>(width_) * height_, 0.0F) {
+  look(columns, {0, columns.width - 1, 0, columns.height - 1});
+}
+
+ObjectRoom ObjectRoom::updated(const CollisionChecker::Columns& columns,
+                               const CollisionChecker::Area& changed) const {
+  ObjectRoom result(*this);
+  // No inner disc reaches farther than the outer ones.
+  CellBox box = ClearanceGrid::affected(columns, outer_, changed);
+  if (box.empty()) return result;
+  box = {box.x0 / side_ * side_, std::min(columns.width - 1, box.x1 / side_ * side_ + side_ - 1),
+         box.y0 / side_ * side_, std::min(columns.height - 1, box.y1 / side_ * side_ + side_ - 1)};
+  result.look(columns, box);
+  return result;
+}
+
+// Works out the factors anew; the box ends where cells of this end.
+void ObjectRoom::look(const CollisionChecker::Columns& columns, const CellBox& box) {
+  const ClearanceGrid inside(columns, inner_, box);
+  const ClearanceGrid around(columns, outer_, box);
+  const auto own = [this](int x, int y) -> float& {
+    return factors_[static_cast<std::size_t>(y / side_) * width_ + x / side_];
+  };
+  for (int y = box.y0; y <= box.y1; y += side_) {
+    for (int x = box.x0; x <= box.x1; x += side_) own(x, y) = 0.0F;
+  }
   const double half_diagonal_m = columns.resolution_m * M_SQRT1_2;
-  factors_.assign(static_cast<std::size_t>(width_) * height_, 0.0F);
   for (int cell = 0; cell < inside.size(); ++cell) {
     if (inside.clearance(cell) < -half_diagonal_m) continue;
-    const int x = cell % columns.width / side;
-    const int y = cell / columns.width / side;
-    float& own = factors_[static_cast<std::size_t>(y) * width_ + x];
+    float& value = own(box.x0 + cell % box.width(), box.y0 + cell / box.width());
     const float here = factor(around.clearance(cell));
-    own = own > 0.0F ? std::min(own, here) : here;
+    value = value > 0.0F ? std::min(value, here) : here;
   }
 }
 
@@ -77,6 +100,17 @@ std::vector<float> ObjectRoom::factors(const std::vector<PlacedSolid>& obstacles
 RoomLibrary::RoomLibrary(const CollisionChecker& map,
                          const std::map<std::string, ObjectModel>& objects)
     : columns_(map.mapColumns()), objects_(objects) {}
+
+std::shared_ptr<RoomLibrary> RoomLibrary::updated(const CollisionChecker& map,
+                                                  const CollisionChecker::Area& changed) {
+  auto result = std::make_shared<RoomLibrary>(map, objects_);
+  if (!columns_->hasSameExtent(*result->columns_)) return result;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [model, room] : rooms_) {
+    result->rooms_.emplace(model, room.updated(*result->columns_, changed));
+  }
+  return result;
+}
 
 const ObjectRoom& RoomLibrary::get(const std::string& model) {
   const std::lock_guard<std::mutex> lock(mutex_);

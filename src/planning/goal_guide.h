@@ -19,6 +19,10 @@ class ObjectRoom {
  public:
   ObjectRoom(const CollisionChecker::Columns& columns, const Solid& object);
 
+  /// For columns of the same extent that differ only within an area: as if made anew.
+  ObjectRoom updated(const CollisionChecker::Columns& columns,
+                     const CollisionChecker::Area& changed) const;
+
   int width() const { return width_; }
   int height() const { return height_; }
   double cell() const { return cell_m_; }
@@ -37,12 +41,15 @@ class ObjectRoom {
 
  private:
   float factor(double clearance_m) const;
+  void look(const CollisionChecker::Columns& columns, const CellBox& box);
 
   Eigen::Vector2d origin_m_;
+  int side_;  ///< Cells of the map in one of these.
   double cell_m_;
   int width_;
   int height_;
   std::vector<TravelDisc> inner_;
+  std::vector<TravelDisc> outer_;
   double reach_m_;  ///< Of the object around its origin.
   std::vector<float> factors_;
 };
@@ -52,11 +59,16 @@ class RoomLibrary {
  public:
   RoomLibrary(const CollisionChecker& map, const std::map<std::string, ObjectModel>& objects);
 
+  /// For `checker.updated(map, changed)`, if this is for `checker`; what it does not change is
+  /// taken over.
+  std::shared_ptr<RoomLibrary> updated(const CollisionChecker& map,
+                                       const CollisionChecker::Area& changed);
+
   const ObjectRoom& get(const std::string& model);
 
  private:
   std::shared_ptr<const CollisionChecker::Columns> columns_;
-  const std::map<std::string, ObjectModel>& objects_;
+  std::map<std::string, ObjectModel> objects_;
   std::mutex mutex_;
   std::map<std::string, ObjectRoom> rooms_;
 };

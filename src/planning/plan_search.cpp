@@ -137,8 +137,8 @@ void SearchClock::report(int nodes, double best_cost_s) const {
   const double now_s = elapsedS();
   if (now_s < reported_s_ + kPeriod_s && best_cost_s >= reported_cost_s_) return;
   reported_s_ = now_s;
-  reported_cost_s_ = best_cost_s;
-  report_({now_s, nodes_ + nodes, best_cost_s});
+  reported_cost_s_ = std::min(reported_cost_s_, best_cost_s);
+  report_({now_s, nodes_ + nodes, reported_cost_s_});
 }
 
 PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
@@ -274,7 +274,7 @@ bool PlanSearch::canApproach(int node) {
 
 ApproachVerifier::ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker)
     : problem_(problem),
-      quick_(problem.approaches, checker, problem.request.obstacles),
+      quick_(problem.approaches, problem.travel, checker, problem.request.obstacles),
       checker_(checker) {}
 
 bool ApproachVerifier::canApproach(const Pose2& map_T_object, const PreparedCase* previous,

@@ -56,6 +56,7 @@ struct SearchProblem {
   const std::vector<PlacedSolid>& obstacles;
   std::function<void(std::vector<PreparedCase>*)> attach_sweeps;
   ApproachLibrary* approaches;
+  const ClearanceGrid& travel;  ///< Of the map, for the robot.
   CaseSetLibrary* case_sets;
   const ObjectRoom& room;
 };

@@ -18,8 +18,8 @@
 
 namespace casepush {
 
-/// What PushPlanner keeps for one map: plans are made in push_planner.cpp, ways cleared in
-/// way_clearing.cpp.
+/// What PushPlanner keeps. Copies share all but the options; those for another map are made in
+/// planner_data.cpp. Plans are made in push_planner.cpp, ways cleared in way_clearing.cpp.
 struct PushPlanner::Data {
   struct Footprints {
     std::shared_ptr<const Footprint> exact;
@@ -35,11 +35,18 @@ struct PushPlanner::Data {
   RobotPathPlanner paths;
   std::shared_ptr<const Footprint> robot_footprint;
   std::map<std::string, Footprints> footprints;
-  std::unique_ptr<SweepLibrary> library;
-  std::unique_ptr<ApproachLibrary> approaches;
-  std::unique_ptr<CaseSetLibrary> case_sets;
-  std::unique_ptr<RoomLibrary> rooms;
-  std::unique_ptr<SceneLibrary> scenes;
+  std::shared_ptr<SweepLibrary> library;
+  std::shared_ptr<ApproachLibrary> approaches;
+  std::shared_ptr<CaseSetLibrary> case_sets;
+  std::shared_ptr<const ClearanceGrid> travel;
+  std::shared_ptr<RoomLibrary> rooms;
+  std::shared_ptr<SceneLibrary> scenes;
+
+  Data(std::shared_ptr<const Map> new_map, RobotModel new_robot, ObjectModels new_objects,
+       const PushPlannerOptions& all);
+
+  /// Takes over a newer map of the same resolution that differs only within an area.
+  void update(std::shared_ptr<const Map> newer, const CollisionChecker::Area& changed);
 
   CollisionChecker checkerWith(const std::vector<PlacedSolid>& obstacles) const {
     CollisionChecker copy = checker;
@@ -65,6 +72,8 @@ struct PushPlanner::Data {
                     const SearchClock& clock) const;
   PlanResult searchShortOnesLast(const PlanRequest& request, const std::vector<const Case*>& cases,
                                  const SearchClock& clock) const;
+  void improve(const PlanRequest& request, const std::vector<const Case*>& cases,
+               const SearchClock& clock, PlanResult* result) const;
   ClearingResult clearAway(const ClearingRequest& request, const PlanRequest& plan_request,
                            const std::vector<const Case*>& own, const std::vector<Case>& cases,
                            const SearchClock& clock) const;

@@ -17,7 +17,6 @@
 namespace casepush {
 namespace {
 
-constexpr double kSweepReach_m = 4.0;      // Longer pushes are tested pose by pose.
 constexpr std::size_t kShownEdges = 4000;  // More than can be told apart on a screen.
 
 std::string rounded(double value, int digits) {
@@ -117,6 +116,23 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
   return outcome;
 }
 
+/// Until the deadline. Other seeds lead elsewhere; other planners would only find the same again.
+bool searchesAgain(const PushPlannerOptions& options) {
+  PushPlannerOptions patient = options;
+  patient.improveUntilDeadline();
+  return options.solutions == patient.solutions &&
+         options.improvement_extensions == patient.improvement_extensions &&
+         options.planner == PlannerKind::kExpRrt && options.similarity == Similarity::kMetric;
+}
+
+/// Is it made with as much safety, and quicker?
+bool isBetter(const PlanResult& a, const PlanResult& b) {
+  return a.status == PlanStatus::kSolved && a.expected_s < b.expected_s &&
+         a.plan.zeta >= b.plan.zeta &&
+         a.plan.max_collision_probability.value_or(1.0) <=
+             b.plan.max_collision_probability.value_or(1.0);
+}
+
 PlanResult failed(PlanStatus status, std::string explanation) {
   PlanResult result;
   result.status = status;
@@ -125,48 +141,6 @@ PlanResult failed(PlanStatus status, std::string explanation) {
 }
 
 }  // namespace
-
-PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
-                         std::map<std::string, ObjectModel> objects, PushPlannerOptions options) {
-  CASEPUSH_CHECK(map != nullptr, "no map");
-  options.validate();
-  if (map->empty()) {
-    throw InputError("map", "is empty; load or scan one before planning");
-  }
-  CollisionChecker checker(*map);
-  RobotPathPlanner paths(robot, options.robot_path);
-  data_ = std::make_unique<Data>(
-      Data{std::move(map),
-           std::move(robot),
-           std::move(objects),
-           options,
-           std::move(checker),
-           std::move(paths),
-           {},
-           {},
-           std::make_unique<SweepLibrary>(std::size_t{1000000} * options.mask_memory_mb),
-           {},
-           std::make_unique<CaseSetLibrary>(),
-           {},
-           std::make_unique<SceneLibrary>()});
-  data_->robot_footprint = data_->checker.footprint(data_->robot.solid, options.robot_margin_m);
-  data_->approaches = std::make_unique<ApproachLibrary>(data_->checker, data_->robot,
-                                                        data_->objects, options.robot_path);
-  data_->rooms = std::make_unique<RoomLibrary>(data_->checker, data_->objects);
-  for (const auto& [name, model] : data_->objects) {
-    Data::Footprints& footprints = data_->footprints[name];
-    footprints.exact = data_->checker.footprint(model.solid);
-    footprints.grown = options.object_margin_m > 0.0
-                           ? data_->checker.footprint(model.solid, options.object_margin_m)
-                           : footprints.exact;
-    footprints.sweeps = std::make_shared<const SweepChecker>(
-        data_->checker,
-        SweepChecker::heightClasses(data_->checker, {footprints.grown, data_->robot_footprint}),
-        kSweepReach_m);
-  }
-}
-
-PushPlanner::~PushPlanner() = default;
 
 PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>& cases,
                              const std::function<bool()>& stop,
@@ -195,31 +169,18 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
         validateCase(*push_case, "case " + std::to_string(push_case->id));
       }
       result = data_->searchShortOnesLast(request, own, clock);
+      PlanRequest again = request;
+      while (searchesAgain(data_->options) && result.status == PlanStatus::kSolved &&
+             !result.plan.pushes.empty() && !clock.isOver()) {
+        ++again.seed;
+        data_->improve(again, own, clock, &result);
+      }
     } catch (const InputError& error) {
       result = failed(PlanStatus::kInvalidRequest, error.what());
     }
   }
   result.planning_s = clock.elapsedS();
   return result;
-}
-
-SearchProblem PushPlanner::Data::problem(const PlanRequest& request,
-                                         const std::vector<const Case*>& cases,
-                                         const std::vector<PlacedSolid>& obstacles) const {
-  const Footprints& own = footprints.at(request.object.model);
-  return {request,
-          cases,
-          objects.at(request.object.model),
-          robot,
-          options,
-          paths,
-          obstacles,
-          [this, &own](std::vector<PreparedCase>* prepared) {
-            library->attach(own.sweeps->classes(), own.grown, robot_footprint, prepared);
-          },
-          approaches.get(),
-          case_sets.get(),
-          rooms->get(request.object.model)};
 }
 
 PlanResult PushPlanner::Data::search(const PlanRequest& request,
@@ -291,6 +252,17 @@ PlanResult PushPlanner::Data::searchShortOnesLast(const PlanRequest& request,
   if (!is_worth_it) return result;
   PlanResult short_steps = search(request, cases, clock);
   return short_steps.status == PlanStatus::kSolved ? short_steps : result;
+}
+
+// Searches once more and takes what is better.
+void PushPlanner::Data::improve(const PlanRequest& request, const std::vector<const Case*>& cases,
+                                const SearchClock& clock, PlanResult* result) const {
+  PlanResult other = searchShortOnesLast(request, cases, clock);
+  const int nodes = result->nodes + other.nodes;
+  const int collision_checks = result->collision_checks + other.collision_checks;
+  if (isBetter(other, *result)) *result = std::move(other);
+  result->nodes = nodes;
+  result->collision_checks = collision_checks;
 }
 
 // Chains the plan's pushes from its object's pose and tells which of them can be applied.

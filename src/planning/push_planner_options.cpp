@@ -16,6 +16,11 @@ PushPlannerOptions PushPlannerOptions::forPlanner(PlannerKind kind) {
   return options;
 }
 
+void PushPlannerOptions::improveUntilDeadline() {
+  solutions = std::numeric_limits<int>::max();
+  improvement_extensions = std::numeric_limits<int>::max();
+}
+
 void PushPlannerOptions::validate() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Violations violations;

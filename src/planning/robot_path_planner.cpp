@@ -278,6 +278,24 @@ struct RobotPathPlanner::Cache {
     return prepared;
   }
 
+  void update(const CollisionChecker& before, const CollisionChecker& now,
+              const CollisionChecker::Area& changed) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto columns = now.mapColumns();
+    const bool is_of_before = prepared.columns && prepared.columns == before.mapColumns();
+    if (!is_of_before || !columns->hasSameExtent(*prepared.columns)) return;
+    prepared.grid =
+        std::make_shared<ClearanceGrid>(prepared.grid->updated(*columns, discs, changed));
+    prepared.columns = columns;
+  }
+
+  std::shared_ptr<Cache> copy() {
+    auto result = std::make_shared<Cache>(discs);
+    const std::lock_guard<std::mutex> lock(mutex);
+    result->prepared = prepared;
+    return result;
+  }
+
   const std::vector<TravelDisc> discs;
   std::mutex mutex;
   Prepared prepared;
@@ -288,6 +306,15 @@ RobotPathPlanner::RobotPathPlanner(RobotModel robot, RobotPathOptions options)
   checkOptions(options);
   if (robot_.solid.empty()) throw InputError("robot " + robot_.name, "has no collision shapes");
   cache_ = std::make_shared<Cache>(travelDiscs(robot_.solid, options.margin_m));
+}
+
+RobotPathPlanner RobotPathPlanner::updated(const CollisionChecker& before,
+                                           const CollisionChecker& now,
+                                           const CollisionChecker::Area& changed) const {
+  RobotPathPlanner result(*this);
+  result.cache_ = cache_->copy();
+  result.cache_->update(before, now, changed);
+  return result;
 }
 
 RobotPath RobotPathPlanner::plan(const CollisionChecker& checker, const Pose2& map_T_robot,

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "casepush/common/input_error.h"
@@ -24,10 +23,7 @@ PushPlannerOptions optionsFor(const PlanArguments& arguments) {
   PlannerArguments chosen = arguments.planner;
   if (arguments.paper) chosen.planner = toString(PlannerKind::kExpRrtPaper);
   PushPlannerOptions options = plannerOptions(chosen);
-  if (arguments.anytime) {
-    options.solutions = std::numeric_limits<int>::max();
-    options.improvement_extensions = std::numeric_limits<int>::max();
-  }
+  if (arguments.anytime) options.improveUntilDeadline();
   return options;
 }
 

@@ -164,6 +164,26 @@ std::shared_ptr<const CollisionChecker::Columns> CollisionChecker::mapColumns() 
   return {data_->map, &data_->map->columns};
 }
 
+CellBox CollisionChecker::Columns::cellsIn(const Area& area) const {
+  // An area that ends on a cell's border, but for rounding, does not mean the cell beyond.
+  constexpr double kRounding = 1e-6;
+  const double scale = 1.0 / resolution_m;
+  const Eigen::Vector2d low = (area.min_m - origin_m) * scale;
+  const Eigen::Vector2d high = (area.max_m - origin_m) * scale;
+  const auto index = [](double at, int count) {
+    return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)));
+  };
+  return {std::max(0, index(std::floor(low.x() + kRounding), width)),
+          std::min(width - 1, index(std::ceil(high.x() - kRounding) - 1.0, width)),
+          std::max(0, index(std::floor(low.y() + kRounding), height)),
+          std::min(height - 1, index(std::ceil(high.y() - kRounding) - 1.0, height))};
+}
+
+bool CollisionChecker::Columns::hasSameExtent(const Columns& other) const {
+  return origin_m == other.origin_m && resolution_m == other.resolution_m && width == other.width &&
+         height == other.height;
+}
+
 std::string describe(const Contact& contact, const std::vector<PlacedSolid>& obstacles) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(2);

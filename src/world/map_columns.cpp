@@ -33,23 +33,7 @@ MapColumns::MapColumns(const Map& map, const MapColumns& before,
   columns.resolution_m = before.columns.resolution_m;
   columns.slice_m = before.columns.slice_m;
   if (!map.empty()) setExtent(map);
-  fill(map, cellsIn(changed), &before);
-}
-
-CellBox MapColumns::cellsIn(const CollisionChecker::Area& area) const {
-  // An area that ends on a cell's border, but for rounding, does not mean the cell beyond.
-  constexpr double kRounding = 1e-6;
-  const double scale = 1.0 / columns.resolution_m;
-  const Eigen::Vector2d low = (area.min_m - columns.origin_m) * scale;
-  const Eigen::Vector2d high = (area.max_m - columns.origin_m) * scale;
-  const auto index = [](double at, int count) {
-    return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)));
-  };
-  return {
-      std::max(0, index(std::floor(low.x() + kRounding), columns.width)),
-      std::min(columns.width - 1, index(std::ceil(high.x() - kRounding) - 1.0, columns.width)),
-      std::max(0, index(std::floor(low.y() + kRounding), columns.height)),
-      std::min(columns.height - 1, index(std::ceil(high.y() - kRounding) - 1.0, columns.height))};
+  fill(map, columns.cellsIn(changed), &before);
 }
 
 void MapColumns::setExtent(const Map& map) {

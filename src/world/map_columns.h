@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
+#include "casepush/world/cell_box.h"
 #include "casepush/world/collision_checker.h"
 #include "casepush/world/map.h"
-#include "cell_box.h"
 
 namespace casepush {
 
@@ -17,9 +17,6 @@ struct MapColumns {
 
   /// Of a map that differs from the one of `before` only within an area: the same as made anew.
   MapColumns(const Map& map, const MapColumns& before, const CollisionChecker::Area& changed);
-
-  /// Cells that reach into an area, as far as there are any.
-  CellBox cellsIn(const CollisionChecker::Area& area) const;
 
   /// Cells low, ..., high - 1 above z = 0 are occupied.
   struct Run {

@@ -58,11 +58,6 @@ void update(const octomap::OcTreeKey& key, bool hit, octomap::OcTree* tree, MapC
 
 }  // namespace
 
-void MapChange::extend(const MapChange& other) {
-  cells += other.cells;
-  where_m.extend(other.where_m);
-}
-
 void Map::addScan(const Eigen::Vector3f& map_origin, const std::vector<Eigen::Vector3f>& map_points,
                   double max_range_m) {
   checkOrigin(*tree_, map_origin);

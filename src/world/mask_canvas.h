@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cell_box.h"
+#include "casepush/world/cell_box.h"
 #include "swept_shapes.h"
 
 namespace casepush {

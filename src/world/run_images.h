@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cell_box.h"
+#include "casepush/world/cell_box.h"
 #include "layered_bitmap.h"
 #include "sweep_mask.h"
 

@@ -146,7 +146,7 @@ SweepChecker SweepChecker::updated(CollisionChecker checker,
   }
   SweepChecker result(*this);
   auto images = std::make_shared<Images>(*map_);
-  const CellBox box = now.cellsIn(changed);
+  const CellBox box = now.columns.cellsIn(changed);
   images->clear(box);
   draw(now, box, images.get());
   result.map_ = std::move(images);

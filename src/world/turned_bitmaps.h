@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "cell_box.h"
+#include "casepush/world/cell_box.h"
 #include "layered_bitmap.h"
 
 namespace casepush {

@@ -29,14 +29,19 @@ struct MapBenchmark {
   double checker_s = 0.0;         ///< Columns of the whole map.
   double update_map_s = 0.0;      ///< Medians over the updates: OctoMap,
   double update_checker_s = 0.0;  ///< and columns.
-  double planner_s = 0.0;         ///< A planner for one object, before its first plan.
 
   struct Plan {
     PlannerKind planner = PlannerKind::kExpRrt;
+    double made_s = 0.0;  ///< A planner for one object, before its first plan.
     bool solved = false;
     std::string explanation;
     double first_s = 0.0;  ///< The first call of a new planner.
     double again_s = 0.0;  ///< The same request once more.
+    /// After a box of 1 m appeared: following the change if it is told where (median), and if it
+    /// has to compare the maps; then the same request.
+    double update_told_s = 0.0;
+    double update_compared_s = 0.0;
+    double updated_first_s = 0.0;
     int pushes = 0;
     double length_m = 0.0;
     int nodes = 0;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct PushPlannerOptions {
 
   /// Options of a planner: those of the paper for kExpRrtPaper, else the defaults.
   static PushPlannerOptions forPlanner(PlannerKind kind);
+  /// Looks for cheaper plans as long as the request allows.
+  void improveUntilDeadline();
   void validate() const;  ///< @throws InputError listing every violation.
 };
 
@@ -71,6 +74,23 @@ class PushPlanner {
   PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,
               std::map<std::string, ObjectModel> objects, PushPlannerOptions options);
   ~PushPlanner();
+
+  /// For a newer map; plans as one made anew. Footprints, masks and all else that does not depend
+  /// on the map are shared; of what does, only the part around the change is worked out again, if
+  /// the map's extent and resolution are the same.
+  /// @param changed  Where the maps differ at most; nothing: that is found out by comparing them.
+  /// @throws InputError as the constructor.
+  std::unique_ptr<PushPlanner> updated(
+      std::shared_ptr<const Map> map,
+      const std::optional<CollisionChecker::Area>& changed = std::nullopt) const;
+
+  /// One with other options on the same map. Shares everything, so that it takes no time.
+  /// @throws InputError if an option is out of bounds.
+  /// @pre Margins, mask memory, time and robot path are as in options().
+  std::unique_ptr<PushPlanner> withOptions(const PushPlannerOptions& options) const;
+
+  const PushPlannerOptions& options() const;
+  const std::shared_ptr<const Map>& map() const;
 
   /// @param cases  Those of the request's object and this robot count; others are ignored.
   /// @param stop   Asked often; planning ends within 20 ms once it says true.
@@ -122,6 +142,7 @@ class PushPlanner {
 
  private:
   struct Data;
+  explicit PushPlanner(std::unique_ptr<Data> data);
   std::unique_ptr<Data> data_;
 };
 

@@ -43,6 +43,11 @@ class RobotPathPlanner {
 
   RobotPathPlanner(RobotModel robot, RobotPathOptions options);
 
+  /// One with a cache of its own, which takes over what it can from the map of `before`.
+  /// @pre `now` is `before.updated(map, changed)`.
+  RobotPathPlanner updated(const CollisionChecker& before, const CollisionChecker& now,
+                           const CollisionChecker::Area& changed) const;
+
   /// @param checker  With every object that stands in the way set as an obstacle, also the one to
   /// be
   ///   pushed next.

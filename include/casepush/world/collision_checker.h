@@ -7,6 +7,7 @@
 
 #include "casepush/common/pose2.h"
 #include "casepush/model/geometry.h"
+#include "casepush/world/cell_box.h"
 #include "casepush/world/map.h"
 
 namespace casepush {
@@ -99,6 +100,10 @@ class CollisionChecker {
     int width = 0;
     int height = 0;
     std::vector<std::uint64_t> bits;  ///< Row-major: bits[iy * width + ix].
+
+    /// Cells that reach into an area, as far as there are any.
+    CellBox cellsIn(const Area& area) const;
+    bool hasSameExtent(const Columns& other) const;
   };
   /// Of map and obstacles.
   const Columns& columns() const;

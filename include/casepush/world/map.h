@@ -72,6 +72,10 @@ class Map {
   MapChange clear(const Eigen::AlignedBox3d& map_box,
                   const std::function<bool(const Eigen::AlignedBox3d& map_cell)>& is_wrong);
 
+  /// The cells in which this map differs from an older one.
+  /// @pre The same resolution. Cost: proportional to the nodes of both maps.
+  MapChange changeSince(const Map& before) const;
+
   Map copy() const;
 
   double resolution() const;

@@ -24,7 +24,8 @@ TEST(ApproachCheck, isSufficient) {
   Scene scene(furnishedRoom());
   const RobotPathPlanner paths(scene.robot, scene.options);
   ApproachLibrary library(scene.checker, scene.robot, scene.objects, scene.options);
-  ApproachCheck check(&library, scene.checker, {});
+  const ClearanceGrid grid(scene.checker.columns(), library.discs());
+  ApproachCheck check(&library, grid, scene.checker, {});
   const auto object = scene.checker.footprint(testChair().solid);
   const std::vector<PreparedCase> cases =
       prepareCases(syntheticPushes(6, 5), 0.0, 0.025, testChair().radius_m, scene.robot.radius_m);

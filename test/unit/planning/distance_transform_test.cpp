@@ -90,6 +90,30 @@ TEST(ClearanceGridTest, lineSeesEveryCellThatItPasses) {
   EXPECT_LT(grid.clearanceAlong({0.0, 1.0}, {0.0, 3.0}), -1e9F);
 }
 
+TEST(ClearanceGridTest, isTheSameAsMadeAnewAfterAChange) {
+  Random random(10);
+  const std::vector<TravelDisc> discs = {{0.1, 0.15, 0.2}, {0.1, 0.3, 0.05}};
+  CollisionChecker::Columns columns = randomColumns(&random, 150, 130);
+  for (auto& bits : columns.bits) bits = random.chance(0.002) ? 0b100 : 0;
+  ClearanceGrid grid(columns, discs);
+  for (int round = 0; round < 30; ++round) {
+    const CellBox box = columns.cellsIn(
+        {{random.uniform(-1.5, 6.0), random.uniform(0.0, 6.5)}, {6.5, random.uniform(0.5, 7.5)}});
+    for (int y = box.y0; y <= box.y1; ++y) {
+      for (int x = box.x0; x <= box.x1; ++x) {
+        columns.bits[y * columns.width + x] = random.chance(0.002) ? 0b100 : 0;
+      }
+    }
+    const Eigen::Vector2d low = columns.origin_m + 0.05 * Eigen::Vector2d(box.x0, box.y0);
+    const Eigen::Vector2d high = columns.origin_m + 0.05 * Eigen::Vector2d(box.x1 + 1, box.y1 + 1);
+    grid = grid.updated(columns, discs, {low, high});
+    const ClearanceGrid anew(columns, discs);
+    for (int cell = 0; cell < anew.size(); ++cell) {
+      ASSERT_EQ(grid.clearance(cell), anew.clearance(cell)) << round << ": " << cell;
+    }
+  }
+}
+
 TEST(ClearanceGridTest, solidsLowerTheClearanceExactly) {
   Random random(9);
   auto columns = randomColumns(&random, 60, 60);

@@ -93,6 +93,45 @@ TEST_F(MapUpdateTest, boundsAreThoseOfAllKnownCells) {
   EXPECT_LT((map_.max() - high).norm(), 1e-9);
 }
 
+TEST_F(MapUpdateTest, tellsWhereItDiffersFromAnOlderMap) {
+  EXPECT_EQ(map_.changeSince(map_).cells, 0);
+  EXPECT_TRUE(map_.changeSince(map_).where_m.isEmpty());
+  for (int i = 0; i < 20; ++i) {
+    const Map before = map_.copy();
+    const CollisionChecker::Area area = change(0.5, 5.5);
+    const MapChange found = map_.changeSince(before);
+    EXPECT_EQ(before.changeSince(map_).cells, found.cells);
+    int cells = 0;
+    Eigen::AlignedBox3d box;
+    const auto compare = [&](const octomap::OcTree& a, const octomap::OcTree& b) {
+      for (auto leaf = a.begin_leafs(); leaf != a.end_leafs(); ++leaf) {
+        if (!a.isNodeOccupied(*leaf)) continue;
+        const double half_m = leaf.getSize() / 2.0;
+        for (double x = -half_m + 0.025; x < half_m; x += kResolution_m) {
+          for (double y = -half_m + 0.025; y < half_m; y += kResolution_m) {
+            for (double z = -half_m + 0.025; z < half_m; z += kResolution_m) {
+              const Eigen::Vector3d centre(leaf.getX() + x, leaf.getY() + y, leaf.getZ() + z);
+              const octomap::OcTreeNode* other = b.search(centre.x(), centre.y(), centre.z());
+              if (other != nullptr && b.isNodeOccupied(other)) continue;
+              ++cells;
+              const Eigen::Vector3d half = Eigen::Vector3d::Constant(kResolution_m / 2.0);
+              box.extend(Eigen::AlignedBox3d(centre - half, centre + half));
+            }
+          }
+        }
+      }
+    };
+    compare(before.tree(), map_.tree());
+    compare(map_.tree(), before.tree());
+    EXPECT_EQ(found.cells, cells);
+    if (cells == 0) continue;
+    EXPECT_LT((found.where_m.min() - box.min()).norm(), 1e-6);
+    EXPECT_LT((found.where_m.max() - box.max()).norm(), 1e-6);
+    EXPECT_GE(found.where_m.min().x(), area.min_m.x() - 1e-6);
+    EXPECT_LE(found.where_m.max().y(), area.max_m.y() + 1e-6);
+  }
+}
+
 TEST_F(MapUpdateTest, leavesTheOldCheckerAsItWas) {
   const CollisionChecker checker(map_);
   const std::vector<std::uint64_t> bits = checker.columns().bits;
