@@ -8,6 +8,7 @@ add_message_files(FILES
   BodyPose.msg
   ExecutedPush.msg
   ExecutorState.msg
+  ObjectGoal.msg
   ObjectLoad.msg
   ObjectLoadArray.msg
   ObjectPose.msg
@@ -20,6 +21,7 @@ add_message_files(FILES
   PushSample.msg
   PushableObject.msg
   PushableObjectArray.msg
+  RearrangedObject.msg
   TaskSummary.msg
   TrialPush.msg)
 add_service_files(FILES
@@ -32,5 +34,6 @@ add_service_files(FILES
   StartDemonstration.srv
   StepSimulation.srv
   StopDemonstration.srv)
-add_action_files(FILES ExecutePush.action LearnObject.action PlanPush.action PushObject.action)
+add_action_files(FILES ExecutePush.action LearnObject.action PlanPush.action PushObject.action
+                       Rearrange.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)

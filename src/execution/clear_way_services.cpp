@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "casepush/execution/clear_way.h"
@@ -39,44 +40,53 @@ std::vector<std::string> inTheRobotsWay(const PushPlanner& planner, const PushPl
 
 }  // namespace
 
-ClearWayServices clearWayServices(const PushPlanner& planner, const std::string& robot,
-                                  std::function<std::vector<Case>()> cases) {
+ApproachPlanner approachPlanner(const PlannerSource& planner, const std::string& object_id) {
+  return [planner, object_id](const Observation& observation, const Pose2& goal,
+                              double dock_direction_rad) {
+    const auto current = planner();
+    return approachPlanner(*current, object_id)(observation, goal, dock_direction_rad);
+  };
+}
+
+ClearWayServices clearWayServices(const PlannerSource& planner, const std::string& robot,
+                                  const CaseSource& cases) {
   ClearWayServices services;
   services.cases = [cases, robot](const std::string& model) {
+    const auto all = cases();
     std::vector<Case> own;
-    for (Case& each : cases()) {
-      if (isFor(each, model, robot)) own.push_back(std::move(each));
-    }
+    std::copy_if(all->begin(), all->end(), std::back_inserter(own),
+                 [&](const Case& each) { return isFor(each, model, robot); });
     return own;
   };
   services.is_movable = [cases, robot](const PlacedObject& object) {
-    const std::vector<Case> all = cases();
-    return std::any_of(all.begin(), all.end(),
+    const auto all = cases();
+    return std::any_of(all->begin(), all->end(),
                        [&](const Case& each) { return isFor(each, object.model, robot); });
   };
   const auto is_movable = services.is_movable;
-  services.blockers = [&planner, cases, is_movable](const PushPlan& plan,
-                                                    const Observation& observation, int pushes) {
+  services.blockers = [planner, cases, is_movable](const PushPlan& plan,
+                                                   const Observation& observation, int pushes) {
     if (plan.pushes.empty()) return std::vector<std::string>{};
-    const std::vector<Case> all = cases();
+    const auto all = cases();
+    const auto current = planner();
     const Others others = othersOf(observation, plan.object.id, is_movable);
-    std::vector<std::string> ids = planner.inTheWay(plan, all, others.movable, pushes);
+    std::vector<std::string> ids = current->inTheWay(plan, *all, others.movable, pushes);
     if (!ids.empty()) return ids;
-    return inTheRobotsWay(planner, plan, all, others, observation.map_T_robot);
+    return inTheRobotsWay(*current, plan, *all, others, observation.map_T_robot);
   };
-  services.clear = [&planner, cases](const ClearingRequest& request) {
-    return planner.clear(request, cases());
+  services.clear = [planner, cases](const ClearingRequest& request) {
+    return planner()->clear(request, *cases());
   };
-  services.go_on = [&planner, cases](const PushPlan& rest, const Observation& observation) {
+  services.go_on = [planner, cases](const PushPlan& rest, const Observation& observation) {
     std::optional<PushPlan> plan;
     const ObjectState* object = usableObject(observation, rest.object.id);
     if (object == nullptr || rest.pushes.empty()) return plan;
-    const PushPlanner::Continuation found = planner.continuePlan(
-        rest, object->map_T_object, cases(), otherObjects(observation, rest.object.id));
+    const PushPlanner::Continuation found = planner()->continuePlan(
+        rest, object->map_T_object, *cases(), otherObjects(observation, rest.object.id));
     if (found.applicable > 0) plan = found.plan;
     return plan;
   };
-  services.approach = [&planner](const std::string& id) { return approachPlanner(planner, id); };
+  services.approach = [planner](const std::string& id) { return approachPlanner(planner, id); };
   return services;
 }
 

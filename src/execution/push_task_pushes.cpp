@@ -29,8 +29,8 @@ ReplanCause causeOf(const PushReport& report) {
 
 void PushTask::Data::startPush(const Observation& observation) {
   const PlannedPush& planned = plan->pushes.front();
-  const std::vector<Case> cases = services.cases();
-  const Case* found = findCase(cases, planned.case_id);
+  const auto cases = services.cases();
+  const Case* found = findCase(*cases, planned.case_id);
   if (found == nullptr) {
     PlanResult unknown;
     unknown.status = PlanStatus::kUnreachable;
@@ -137,7 +137,7 @@ void PushTask::Data::judgeOutcome(const PushReport& report, const Observation& o
 void PushTask::Data::goOn(const PushReport& report, const ObjectState& object,
                           const Observation& observation) {
   const PushPlanner::Continuation rest_of_plan =
-      services.continue_plan(*plan, object.map_T_object, services.cases(), obstacles(observation));
+      services.continue_plan(*plan, object.map_T_object, *services.cases(), obstacles(observation));
   const RestVerdict verdict = judgeRest(rest_of_plan, options.rest);
   const std::string newcomer = newcomerInTheWay(rest_of_plan.plan, observation);
   if (!newcomer.empty()) {

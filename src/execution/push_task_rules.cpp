@@ -86,7 +86,7 @@ PushTaskServices completeServices(PushTaskServices services, const std::string& 
     services.in_the_way = [checker, cases = services.cases](
                               const PushPlan& plan, const std::vector<PlacedObject>& objects) {
       return checker == nullptr ? std::vector<std::string>{}
-                                : checker->inTheWay(plan, cases(), objects);
+                                : checker->inTheWay(plan, *cases(), objects);
     };
   }
   if (!services.approach) {

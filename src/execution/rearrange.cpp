@@ -41,7 +41,7 @@ void RearrangeOptions::validate() const {
 struct Rearrange::Data {
   enum class Stage { kLook, kOrder, kTasks, kDone };
 
-  Data(RearrangeGoal wanted, RearrangeServices outside, const RearrangeOptions& all)
+  Data(RearrangeRequest wanted, RearrangeServices outside, const RearrangeOptions& all)
       : goal(std::move(wanted)), services(std::move(outside)), options(all) {
     for (const PushTaskGoal& each : goal.tasks) {
       items.emplace_back();
@@ -49,11 +49,12 @@ struct Rearrange::Data {
     }
   }
 
-  RearrangeGoal goal;
+  RearrangeRequest goal;
   RearrangeServices services;
   RearrangeOptions options;
   Stage stage = Stage::kLook;
-  BehaviourStatus status = BehaviourStatus::kRunning;
+  PushTaskStatus status = PushTaskStatus::kRunning;
+  bool is_cancelled = false;
   std::string text = "looking for the objects";
   std::vector<Item> items;
   std::vector<int> left;   ///< Goals of this round.
@@ -73,16 +74,31 @@ struct Rearrange::Data {
   void chooseOrder(const Observation& observation);
   Tick runTask(const Observation& observation);
   std::vector<int> unmet(const Observation& observation) const;
-  void end(BehaviourStatus how, const std::string& why);
+  void endTask();
+  void end(PushTaskStatus how, const std::string& why);
   std::string failures() const;
 };
 
-void Rearrange::Data::end(BehaviourStatus how, const std::string& why) {
+// Notes how far the task has come.
+void Rearrange::Data::endTask() {
+  Item& item = items[order[next]];
+  item.status = task->status();
+  item.explanation = task->describe();
+  item.pushes += task->progress().pushes;
+  task.reset();
+}
+
+void Rearrange::Data::end(PushTaskStatus how, const std::string& why) {
   if (stage == Stage::kOrder && asked) services.plans->cancel();
+  if (task) {
+    task->cancel();  // Whatever it waits for.
+    endTask();
+    items[order[next]].status = how;
+    items[order[next]].explanation = why;
+  }
   stage = Stage::kDone;
   status = how;
   text = why;
-  task.reset();
 }
 
 std::vector<int> Rearrange::Data::unmet(const Observation& observation) const {
@@ -113,11 +129,11 @@ void Rearrange::Data::look(const Observation& observation) {
 void Rearrange::Data::beginRound(const Observation& observation) {
   left = unmet(observation);
   if (left.empty()) {
-    end(BehaviourStatus::kSucceeded, "all objects are at their goals");
+    end(PushTaskStatus::kSucceeded, "all objects are at their goals");
     return;
   }
   if (round++ >= options.max_rounds) {
-    end(BehaviourStatus::kFailed, failures());
+    end(PushTaskStatus::kNoProgress, failures());
     return;
   }
   stage = Stage::kOrder;
@@ -206,16 +222,17 @@ Tick Rearrange::Data::runTask(const Observation& observation) {
     ++items[order[next]].attempts;
   }
   Tick tick = task->tick(observation);
-  Item& item = items[order[next]];
+  const Item& item = items[order[next]];
   text = item.object_id + ": " + task->describe();
   if (tick.status == BehaviourStatus::kRunning) return tick;
-  item.status = task->status();
-  item.explanation = task->describe();
-  item.pushes += task->progress().pushes;
-  task.reset();
-  ++next;
-  if (item.status == PushTaskStatus::kRobotLost || item.status == PushTaskStatus::kPlannerGone) {
-    end(BehaviourStatus::kFailed, text);  // The others would fare no better.
+  endTask();
+  if (is_cancelled) {
+    end(PushTaskStatus::kCancelled, "cancelled");
+  } else if (item.status == PushTaskStatus::kRobotLost ||
+             item.status == PushTaskStatus::kPlannerGone) {
+    end(item.status, text);  // The others would fare no better.
+  } else {
+    ++next;
   }
   return {};
 }
@@ -229,7 +246,7 @@ Tick Rearrange::Data::run(const Observation& observation) {
     stage_began_s = observation.stamp_s;
   }
   if (observation.stamp_s - *began_s > goal.time_limit_s) {
-    end(BehaviourStatus::kFailed, "time is up: " + text);
+    end(PushTaskStatus::kTimeout, "time is up: " + text);
     return {};
   }
   switch (stage) {
@@ -247,7 +264,7 @@ Tick Rearrange::Data::run(const Observation& observation) {
   return {};
 }
 
-Rearrange::Rearrange(RearrangeGoal goal, RearrangeServices services, RearrangeOptions options) {
+Rearrange::Rearrange(RearrangeRequest goal, RearrangeServices services, RearrangeOptions options) {
   options.validate();
   checkGoals(goal.tasks);
   if (services.plans == nullptr || !services.make_task || !services.in_the_way) {
@@ -260,18 +277,31 @@ Rearrange::~Rearrange() = default;
 
 Tick Rearrange::tick(const Observation& observation) {
   Tick tick;
-  if (data_->status == BehaviourStatus::kRunning) tick = data_->run(observation);
-  tick.status = data_->status;
+  if (data_->status == PushTaskStatus::kRunning) tick = data_->run(observation);
+  tick.status = data_->status == PushTaskStatus::kRunning     ? BehaviourStatus::kRunning
+                : data_->status == PushTaskStatus::kSucceeded ? BehaviourStatus::kSucceeded
+                                                              : BehaviourStatus::kFailed;
   if (tick.status != BehaviourStatus::kRunning) tick.command = Command{};
   return tick;
 }
 
 std::string Rearrange::describe() const { return data_->text; }
 
-void Rearrange::cancel() { data_->end(BehaviourStatus::kFailed, "cancelled"); }
+void Rearrange::cancel() {
+  if (data_->status != PushTaskStatus::kRunning) return;
+  data_->is_cancelled = true;
+  if (data_->task) {
+    data_->task->cancel();  // Its push is to be reported.
+  } else {
+    data_->end(PushTaskStatus::kCancelled, "cancelled");
+  }
+}
 
+PushTaskStatus Rearrange::status() const { return data_->status; }
+bool Rearrange::isLooking() const { return data_->stage == Data::Stage::kLook; }
 const std::vector<Rearrange::Item>& Rearrange::items() const { return data_->items; }
 const std::vector<int>& Rearrange::order() const { return data_->order; }
+std::size_t Rearrange::turn() const { return data_->next; }
 const PushTask* Rearrange::task() const { return data_->task.get(); }
 
 }  // namespace casepush

@@ -85,8 +85,7 @@ float ApproachCheck::clearanceAround(int cell, float enough_m) const {
 
 bool ApproachCheck::canPass(int cell) const {
   const auto least_m = static_cast<float>(library_.minClearance());
-  return clearanceAround(cell, least_m) >= least_m &&
-         object_->at(grid_.centre(cell)) >= least_m;
+  return clearanceAround(cell, least_m) >= least_m && object_->at(grid_.centre(cell)) >= least_m;
 }
 
 bool ApproachCheck::isFreeLine(const Pose2& from, const Pose2& to) const {

@@ -34,7 +34,8 @@ class ObjectClearance {
   std::vector<float> clearance_m_;
 };
 
-/// What approach checks need of map, robot, objects and cases, worked out once. Thread-safe.
+/// What approach checks need of robot, objects and cases, worked out once, whatever the map.
+/// Thread-safe.
 class ApproachLibrary {
  public:
   /// @param checker  Of any map with the resolution of those to come.

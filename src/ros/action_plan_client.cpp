@@ -30,8 +30,13 @@ void ActionPlanClient::request(const PlanRequest& request) {
   answer_due_ =
       SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
                                std::chrono::duration<double>(request.deadline_s + kAnswerSlackS));
-  goal_ = client_.sendGoal(toMessage(request),
-                           [this](const Client::GoalHandle& goal) { onTransition(goal); });
+  PlanPushGoal goal = toMessage(request);
+  goal.planner = search_.planner;
+  goal.risk = search_.risk;
+  goal.max_collision_probability = search_.max_collision_probability;
+  goal.anytime = search_.anytime;
+  goal_ =
+      client_.sendGoal(goal, [this](const Client::GoalHandle& handle) { onTransition(handle); });
 }
 
 void ActionPlanClient::onTransition(const Client::GoalHandle& goal) {

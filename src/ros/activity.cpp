@@ -22,18 +22,6 @@ static_assert(PushObjectResult::ROBOT_LOST == static_cast<int>(PushTaskStatus::k
 static_assert(PushObjectResult::NO_PROGRESS == static_cast<int>(PushTaskStatus::kNoProgress));
 static_assert(PushObjectResult::TIMEOUT == static_cast<int>(PushTaskStatus::kTimeout));
 
-/// Ends a goal in the state that belongs to how its activity ended.
-template <typename GoalHandle, typename Result>
-void end(GoalHandle& goal, ActivityEnd how, bool success, const Result& result) {
-  if (how == ActivityEnd::kCancelled) {
-    goal.setCanceled(result, result.explanation);
-  } else if (success) {
-    goal.setSucceeded(result, result.explanation);
-  } else {
-    goal.setAborted(result, result.explanation);
-  }
-}
-
 std::uint32_t count(int value) { return static_cast<std::uint32_t>(value); }
 
 /// "no_progress": as the constants of the result in lower case.
@@ -99,13 +87,9 @@ std::string PushObjectActivity::goalId() const { return goal_.getGoalID().id; }
 
 std::string PushObjectActivity::describe() const { return task_.describe(); }
 
-ExecutorState PushObjectActivity::state() const {
-  const PushTaskProgress& progress = task_.progress();
+ExecutorState stateOf(const PushTaskProgress& progress) {
   ExecutorState state;
-  state.activity = ExecutorState::PUSHING_OBJECT;
-  state.object_id = task_goal_.object_id;
   state.phase = progress.phase;
-  state.description = task_.describe();
   state.push_index = count(progress.push_index);
   state.push_count = count(progress.push_count);
   state.pushes = count(progress.pushes);
@@ -117,6 +101,14 @@ ExecutorState PushObjectActivity::state() const {
   return state;
 }
 
+ExecutorState PushObjectActivity::state() const {
+  ExecutorState state = stateOf(task_.progress());
+  state.activity = ExecutorState::PUSHING_OBJECT;
+  state.object_id = task_goal_.object_id;
+  state.description = task_.describe();
+  return state;
+}
+
 void PushObjectActivity::publishFeedback() {
   const ExecutorState now = state();
   PushObjectFeedback feedback;
@@ -125,6 +117,7 @@ void PushObjectActivity::publishFeedback() {
   feedback.push_index = now.push_index;
   feedback.push_count = now.push_count;
   feedback.pushes = now.pushes;
+  feedback.clearing_pushes = count(task_.progress().clearing_pushes);
   feedback.replans = now.replans;
   feedback.deviation = last_t_squared_;
   feedback.distance_to_goal = now.distance_to_goal;
@@ -143,6 +136,7 @@ PushObjectResult PushObjectActivity::result(ActivityEnd how, const std::string& 
   result.position_error = progress.distance_to_goal_m;
   result.yaw_error = std::abs(progress.yaw_to_goal_rad);
   result.pushes = count(progress.pushes);
+  result.clearing_pushes = count(progress.clearing_pushes);
   result.plans = count(progress.plans);
   result.replans = count(progress.replans);
   result.rejected_predictions = count(progress.rejected_predictions);
@@ -182,7 +176,7 @@ std::optional<TaskSummary> PushObjectActivity::summary(ActivityEnd how,
 }
 
 void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation, double now_s) {
-  end(goal_, how, task_.status() == PushTaskStatus::kSucceeded, result(how, explanation, now_s));
+  endGoal(goal_, how, task_.status() == PushTaskStatus::kSucceeded, result(how, explanation, now_s));
 }
 
 ExecutePushActivity::ExecutePushActivity(ExecutePushServer::GoalHandle goal, ExecutePush push,
@@ -224,7 +218,7 @@ void ExecutePushActivity::finish(ActivityEnd how, const std::string& explanation
     sink_(*push_.report(), ReportContext{});
     result.report = toMessage(*push_.report());
   }
-  end(goal_, how, how == ActivityEnd::kFinished, result);
+  endGoal(goal_, how, how == ActivityEnd::kFinished, result);
 }
 
 }  // namespace casepush

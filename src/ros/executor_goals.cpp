@@ -7,7 +7,6 @@
 #include "casepush/ros/conversions.h"
 #include "casepush/ros/executor_node.h"
 #include "casepush/ros/push_conversions.h"
-#include "casepush/ros/transforms.h"
 
 namespace casepush {
 namespace {
@@ -38,59 +37,22 @@ void reject(GoalHandle& goal, std::uint8_t status, const std::string& explanatio
 
 }  // namespace
 
-std::vector<Case> ExecutorNode::casesOf(const std::string& model) const {
-  std::vector<Case> found;
-  std::copy_if(cases_.begin(), cases_.end(), std::back_inserter(found), [&](const Case& each) {
-    return isFor(each, model, parameters_.furnishing.robot.name);
-  });
-  return found;
-}
-
-PushTaskGoal ExecutorNode::taskGoal(const PushObjectGoal& goal) const {
-  PushTaskGoal task;
-  task.object_id = goal.object_id;
-  task.map_T_goal = poseInMap(buffer_, goal.goal);
-  task.tolerance = goalTolerance(goal.position_tolerance, goal.yaw_tolerance);
-  if (!std::isfinite(goal.time_limit) || goal.time_limit < 0.0) {
-    throw InputError("goal: time_limit", "must be finite and not negative");
-  }
-  if (goal.time_limit > 0.0) {
-    task.time_limit_s = goal.time_limit;
-  }
-  task.adapt = goal.adapt;
-  task.seed = goal.seed;
-  return task;
-}
-
 void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
   const PushObjectGoal& wanted = *goal.getGoal();
-  const TrackedObject* instance = parameters_.furnishing.instance(wanted.object_id);
   if (!whoIsBusy().empty()) {
     return reject<PushObjectResult>(goal, PushObjectResult::BUSY, "busy: " + whoIsBusy());
   }
-  if (instance == nullptr) {
-    return reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL,
-                                    "unknown object '" + wanted.object_id + "'");
-  }
-  const std::string model = instance->model.name;
-  std::string missing = whatIsMissing();
-  if (missing.empty() && casesOf(model).empty()) {
-    missing = "there are no cases of " + model + " (topic cases); learn it first (learn_object)";
-  }
-  if (missing.empty() && !plans_.isAlive()) {
-    missing = "the planner does not answer yet (action plan_push)";
-  }
-  if (!missing.empty()) {
-    return reject<PushObjectResult>(goal, PushObjectResult::NOT_READY, missing);
-  }
   try {
-    PushTaskServices services;
-    services.plans = &plans_;
-    services.checker = checker_.get();
-    // Keeps the checker alive, should a new map come during the task.
-    services.cases = [this, model, keep = checker_] { return casesOf(model); };
+    const PushTaskGoal task = taskGoal(wanted);
+    const SearchChoice search = searchOf(wanted);
+    withSearch(parameters_.planner, search);
+    const std::string missing = whatIsMissingFor({task.object_id});
+    if (!missing.empty()) {
+      return reject<PushObjectResult>(goal, PushObjectResult::NOT_READY, missing);
+    }
+    plans_.setSearch(search);
     auto activity = std::make_unique<PushObjectActivity>(
-        goal, taskGoal(wanted), parameters_.furnishing.robot, std::move(services), parameters_.task,
+        goal, task, parameters_.furnishing.robot, taskServices(task.object_id), parameters_.task,
         [this](const PushReport& report, const ReportContext& context) {
           publishReport(report, context);
         });
@@ -100,6 +62,42 @@ void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
     reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL, error.what());
   } catch (const tf2::TransformException& error) {
     reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL, error.what());
+  }
+}
+
+void ExecutorNode::onRearrange(RearrangeServer::GoalHandle goal) {
+  const RearrangeGoal& wanted = *goal.getGoal();
+  if (!whoIsBusy().empty()) {
+    return reject<RearrangeResult>(goal, RearrangeResult::BUSY, "busy: " + whoIsBusy());
+  }
+  try {
+    const RearrangeRequest request = rearrangeRequest(wanted);
+    const SearchChoice search = searchOf(wanted);
+    withSearch(parameters_.planner, search);
+    std::vector<std::string> ids;
+    for (const PushTaskGoal& task : request.tasks) ids.push_back(task.object_id);
+    const std::string missing = whatIsMissingFor(ids);
+    if (!missing.empty()) {
+      return reject<RearrangeResult>(goal, RearrangeResult::NOT_READY, missing);
+    }
+    plans_.setSearch(search);
+    const auto make_task = [this](const PushTaskGoal& task, auto on_report) {
+      PushTaskServices services = taskServices(task.object_id);
+      services.on_report = std::move(on_report);
+      return std::make_unique<PushTask>(task, parameters_.furnishing.robot, std::move(services),
+                                        parameters_.task);
+    };
+    auto activity = std::make_unique<RearrangeActivity>(
+        goal, request, rearrangeServices(), make_task,
+        [this](const PushReport& report, const ReportContext& context) {
+          publishReport(report, context);
+        });
+    goal.setAccepted();
+    begin(std::move(activity));
+  } catch (const InputError& error) {
+    reject<RearrangeResult>(goal, RearrangeResult::INVALID_GOAL, error.what());
+  } catch (const tf2::TransformException& error) {
+    reject<RearrangeResult>(goal, RearrangeResult::INVALID_GOAL, error.what());
   }
 }
 
@@ -119,9 +117,9 @@ ExecutePush ExecutorNode::makePush(const ExecutePushGoal& goal) const {
     return ExecutePush(goal.object_id, fromMessage(goal.configuration), robot,
                        approach(goal.object_id), parameters_.task.push);
   }
-  const auto found = std::find_if(cases_.begin(), cases_.end(),
+  const auto found = std::find_if(cases_->begin(), cases_->end(),
                                   [&goal](const Case& each) { return each.id == goal.case_id; });
-  if (found == cases_.end()) {
+  if (found == cases_->end()) {
     throw InputError("goal: case_id",
                      "there is no case " + std::to_string(goal.case_id) + " (topic cases)");
   }

@@ -45,6 +45,10 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
           handle, names::kExecutePushAction,
           [this](ExecutePushServer::GoalHandle goal) { onExecutePush(std::move(goal)); },
           [this](ExecutePushServer::GoalHandle goal) { onCancel(std::move(goal)); }, false),
+      rearrange_(
+          handle, names::kRearrangeAction,
+          [this](RearrangeServer::GoalHandle goal) { onRearrange(std::move(goal)); },
+          [this](RearrangeServer::GoalHandle goal) { onCancel(std::move(goal)); }, false),
       diagnostics_(handle, "executor", [this](auto& status) { reportDiagnostics(status); }),
       watchdog_(parameters_.watchdog_s, [this] { command_.publish(geometry_msgs::Twist()); }) {
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
@@ -73,13 +77,16 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
   publishState(ros::Time::now().toSec());
   push_object_.start();
   execute_push_.start();
+  rearrange_.start();
 }
 
 void ExecutorNode::onOctomap(const Octomap& message) {
   try {
-    const auto map = std::make_shared<const Map>(fromMessage(message));
-    checker_ = std::make_shared<const PushPlanner>(
-        map, parameters_.furnishing.robot, parameters_.furnishing.models, parameters_.planner);
+    auto map = std::make_shared<const Map>(fromMessage(message));
+    checker_ = checker_ != nullptr ? checker_->updated(std::move(map))
+                                   : std::make_unique<PushPlanner>(
+                                         std::move(map), parameters_.furnishing.robot,
+                                         parameters_.furnishing.models, parameters_.planner);
   } catch (const InputError& error) {
     ROS_ERROR("map ignored: %s", error.what());
   }
@@ -87,7 +94,7 @@ void ExecutorNode::onOctomap(const Octomap& message) {
 
 void ExecutorNode::onCases(const PushCaseArray& message) {
   try {
-    cases_ = fromMessage(message);
+    cases_ = std::make_shared<const std::vector<Case>>(fromMessage(message));
   } catch (const InputError& error) {
     ROS_ERROR("cases ignored: %s", error.what());
   }
@@ -287,7 +294,7 @@ void ExecutorNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper
                    whoIsBusy().empty() ? "idle" : whoIsBusy());
   }
   status.add("planner is alive", plans_.isAlive());
-  status.add("cases", cases_.size());
+  status.add("cases", cases_->size());
   status.add("pushes", report_count_);
   status.add("commands overridden with zero", overridden_commands_);
 }

@@ -119,6 +119,12 @@ void readPlanner(ParameterReader& reader, PushPlannerOptions& options) {
   reader.read("planner/object_margin", options.object_margin_m);
   reader.read("planner/robot_margin", options.robot_margin_m);
   reader.read("planner/solutions", options.solutions, 1, 100000);
+  std::string risk = toString(options.risk.model);
+  reader.read("planner/risk", risk, {"sigma_points", "chance"});
+  reader.check([&] { options.risk.model = riskModel(risk); });
+  reader.read("planner/max_collision_probability", options.risk.max_collision_probability);
+  reader.read("planner/risk_horizon", options.risk.horizon, 1, 1000);
+  reader.read("planner/recovery_time", options.risk.recovery_s);
   reader.read("planner/path_margin", options.robot_path.margin_m);
   reader.read("planner/dock_margin", options.robot_path.dock_margin_m);
   reader.check([&] { options.validate(); });

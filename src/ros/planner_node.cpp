@@ -9,6 +9,7 @@
 #include "casepush/ros/markers.h"
 #include "casepush/ros/names.h"
 #include "casepush/ros/push_conversions.h"
+#include "casepush/ros/search_choice.h"
 #include "casepush/ros/transforms.h"
 
 namespace casepush {
@@ -48,37 +49,29 @@ PlannerNode::PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handl
 }
 
 void PlannerNode::setMap(std::shared_ptr<const Map> map) {
-  const PushPlannerOptions& options = parameters_.planner;
-  auto planner = std::make_shared<const PushPlanner>(map, parameters_.furnishing.robot,
-                                                     parameters_.furnishing.models, options);
+  std::shared_ptr<const PushPlanner> before;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    before = planner_;
+  }
+  std::shared_ptr<const PushPlanner> planner =
+      before != nullptr
+          ? before->updated(std::move(map))
+          : std::make_unique<PushPlanner>(std::move(map), parameters_.furnishing.robot,
+                                          parameters_.furnishing.models, parameters_.planner);
   const std::lock_guard<std::mutex> lock(mutex_);
-  map_ = std::move(map);
-  planners_ = {{options.planner, std::move(planner)}};
+  planner_ = std::move(planner);
 }
 
-std::shared_ptr<const PushPlanner> PlannerNode::plannerFor(const std::string& kind) {
-  PushPlannerOptions options = parameters_.planner;
-  if (!kind.empty() && plannerKind(kind) != options.planner) {
-    const PushPlannerOptions preset = PushPlannerOptions::forPlanner(plannerKind(kind));
-    options.planner = preset.planner;
-    options.similarity = preset.similarity;
-    options.goal_bias = preset.goal_bias;
-  }
+std::shared_ptr<const PushPlanner> PlannerNode::plannerFor(const PlanPushGoal& goal) {
+  const PushPlannerOptions options = withSearch(parameters_.planner, searchOf(goal));
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (map_ == nullptr) {
-    return nullptr;
-  }
-  std::shared_ptr<const PushPlanner>& planner = planners_[options.planner];
-  if (planner == nullptr) {
-    planner = std::make_shared<const PushPlanner>(map_, parameters_.furnishing.robot,
-                                                  parameters_.furnishing.models, options);
-  }
-  return planner;
+  return planner_ == nullptr ? nullptr : planner_->withOptions(options);
 }
 
 void PlannerNode::onCases(const PushCaseArray& message) {
   try {
-    std::vector<Case> cases = fromMessage(message);
+    auto cases = std::make_shared<const std::vector<Case>>(fromMessage(message));
     const std::lock_guard<std::mutex> lock(mutex_);
     cases_ = std::move(cases);
   } catch (const InputError& error) {
@@ -108,11 +101,11 @@ PlanRequest PlannerNode::request(const PlanPushGoal& goal) {
 }
 
 PlanResult PlannerNode::plan(const PlanPushGoal& goal) {
-  const std::shared_ptr<const PushPlanner> planner = plannerFor(goal.planner);
+  const std::shared_ptr<const PushPlanner> planner = plannerFor(goal);
   if (planner == nullptr) {
     return invalid("there is no map yet (" + maps_->missing() + ")");
   }
-  std::vector<Case> cases;
+  std::shared_ptr<const std::vector<Case>> cases;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     cases = cases_;
@@ -131,8 +124,8 @@ PlanResult PlannerNode::plan(const PlanPushGoal& goal) {
     server_.publishFeedback(feedback);
   };
   const auto stop = [this] { return server_.isPreemptRequested() || !ros::ok(); };
-  PlanResult result = planner->plan(complete, cases, stop, report);
-  show(result, cases);
+  PlanResult result = planner->plan(complete, *cases, stop, report);
+  show(result, *cases);
   return result;
 }
 
@@ -174,15 +167,15 @@ void PlannerNode::show(const PlanResult& result, const std::vector<Case>& cases)
 
 void PlannerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (map_ == nullptr) {
+  if (planner_ == nullptr) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no map yet");
-  } else if (cases_.empty()) {
+  } else if (cases_->empty()) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no cases yet");
   } else {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    server_.isActive() ? "planning" : "ready");
   }
-  status.add("cases", cases_.size());
+  status.add("cases", cases_->size());
   status.add("last plan", last_result_.explanation);
   status.add("last planning time [s]", last_result_.planning_s);
   maps_->report(status);

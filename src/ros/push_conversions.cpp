@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "casepush/common/input_error.h"
+#include "casepush/planning/risk_options.h"
 #include "casepush/ros/conversions.h"
 #include "casepush/ros/names.h"
 
@@ -47,6 +48,13 @@ Enum enumFrom(int code, Enum last, const char* where) {
 double finite(double value, const char* where) {
   if (!std::isfinite(value)) {
     throw InputError(where, "a number is not finite");
+  }
+  return value;
+}
+
+double probability(double value, const char* where) {
+  if (!(value >= 0.0 && value <= 1.0)) {
+    throw InputError(where, "is " + std::to_string(value) + ", a probability is in [0, 1]");
   }
   return value;
 }
@@ -182,9 +190,16 @@ Plan toMessage(const PushPlan& plan, double stamp_s) {
     step.case_id = push.case_id;
     step.start = toMessage(push.map_T_start);
     step.outcome = toMessage(push.map_outcome);
+    step.compounded = toMessage(push.map_compounded);
+    step.collision_probability = push.collision_probability;
     message.pushes.push_back(step);
   }
+  message.risk =
+      toString(plan.max_collision_probability ? RiskModel::kChance : RiskModel::kSigmaPoints);
   message.zeta = plan.zeta;
+  message.max_collision_probability = plan.max_collision_probability.value_or(0.0);
+  message.collision_probability = plan.collision_probability;
+  message.goal_probability = plan.goal_probability;
   message.length = plan.lengthM();
   return message;
 }
@@ -196,8 +211,17 @@ PushPlan fromMessage(const Plan& message) {
   plan.tolerance = goalTolerance(message.position_tolerance, message.yaw_tolerance);
   plan.zeta = finite(message.zeta, "plan: zeta");
   for (const PlanStep& step : message.pushes) {
-    plan.pushes.push_back({step.case_id, fromMessage(step.start), fromMessage(step.outcome)});
+    plan.pushes.push_back({step.case_id, fromMessage(step.start), fromMessage(step.outcome),
+                           fromMessage(step.compounded),
+                           probability(step.collision_probability, "plan: a push")});
   }
+  if (!message.risk.empty() && riskModel(message.risk) == RiskModel::kChance) {
+    plan.max_collision_probability =
+        probability(message.max_collision_probability, "plan: max_collision_probability");
+  }
+  plan.collision_probability =
+      probability(message.collision_probability, "plan: collision_probability");
+  plan.goal_probability = probability(message.goal_probability, "plan: goal_probability");
   return plan;
 }
 
@@ -285,6 +309,8 @@ PlanPushResult toMessage(const PlanResult& result, double stamp_s) {
   message.status = static_cast<std::uint8_t>(result.status);
   message.explanation = result.explanation;
   message.plan = toMessage(result.plan, stamp_s);
+  message.expected_time = result.expected_s;
+  message.bound = result.bound;
   message.nodes = static_cast<std::uint32_t>(result.nodes);
   message.collision_checks = static_cast<std::uint32_t>(result.collision_checks);
   message.planning_time = result.planning_s;
@@ -296,6 +322,8 @@ PlanResult fromMessage(const PlanPushResult& message) {
   result.status = enumFrom(message.status, PlanStatus::kPlannerGone, "plan result: status");
   result.explanation = message.explanation;
   result.plan = fromMessage(message.plan);
+  result.expected_s = message.expected_time;
+  result.bound = message.bound;
   result.nodes = static_cast<int>(message.nodes);
   result.collision_checks = static_cast<int>(message.collision_checks);
   result.planning_s = message.planning_time;

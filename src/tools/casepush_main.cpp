@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   casepush::addLearnCommand(app, run);
   casepush::addPlanCommand(app, run);
   casepush::addPushCommand(app, run);
+  casepush::addRearrangeCommand(app, run);
   casepush::addCasesCommand(app, run);
   casepush::addWorldCommand(app, run);
   casepush::addMapCommand(app, run);

@@ -28,6 +28,7 @@ using Run = std::function<int()>;
 void addLearnCommand(CLI::App& app, Run& run);
 void addPlanCommand(CLI::App& app, Run& run);
 void addPushCommand(CLI::App& app, Run& run);
+void addRearrangeCommand(CLI::App& app, Run& run);
 void addCasesCommand(CLI::App& app, Run& run);
 void addWorldCommand(CLI::App& app, Run& run);
 void addMapCommand(CLI::App& app, Run& run);

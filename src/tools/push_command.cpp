@@ -65,26 +65,6 @@ class PushProgress {
   std::tuple<std::string, int, int> last_;
 };
 
-nlohmann::ordered_json pushJson(const PushReport& report) {
-  if (!isObservation(report)) {
-    return {{"object", report.object_id},
-            {"case", report.case_id},
-            {"outcome", toString(report.outcome)},
-            {"explanation", report.explanation}};
-  }
-  return {{"object", report.object_id},
-          {"case", report.case_id},
-          {"outcome", toString(report.outcome)},
-          {"expected",
-           {report.map_expected.mean.x(), report.map_expected.mean.y(),
-            report.map_expected.mean.yaw()}},
-          {"observed", {report.map_T_end.x(), report.map_T_end.y(), report.map_T_end.yaw()}},
-          {"t_squared", report.test.t_squared},
-          {"p_value", report.test.p_value},
-          {"rejected", report.test.rejected},
-          {"duration_s", report.end_stamp_s - report.start_stamp_s}};
-}
-
 PushContext contextOf(const PushArguments& arguments) {
   PushContext context;
   context.load_kg = arguments.load ? arguments.load->mass_kg : 0.0;
@@ -147,7 +127,7 @@ int push(const PushArguments& arguments) {
   }
   nlohmann::ordered_json pushes = nlohmann::ordered_json::array();
   for (const PushReport& report : result.reports) {
-    pushes.push_back(pushJson(report));
+    pushes.push_back(pushReportJson(report));
   }
   printResult({{"success", result.success},
                {"status", toString(result.status)},

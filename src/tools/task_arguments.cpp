@@ -29,6 +29,13 @@ Pose2 poseFrom(const std::vector<double>& numbers, const std::string& option,
 
 }  // namespace
 
+void addMapOption(CLI::App& command, std::string& map) {
+  command.add_option(
+      "--map", map,
+      "Map that the planner uses: OctoMap (.bt, .ot), floor plan (.yaml of map_server) or "
+      "point cloud (.pcd, .xyz); default: a survey of the world");
+}
+
 void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
   addCommonOptions(command, arguments.common);
   command.add_option("--object", arguments.object, "Object by name or URDF file")
@@ -36,10 +43,7 @@ void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
       ->check(notEmpty());
   command.add_option("--world", arguments.world, "World by name or YAML file")
       ->capture_default_str();
-  command.add_option(
-      "--map", arguments.map,
-      "Map that the planner uses: OctoMap (.bt, .ot), floor plan (.yaml of map_server) or "
-      "point cloud (.pcd, .xyz); default: a survey of the world");
+  addMapOption(command, arguments.map);
   command.add_option("--case-base", arguments.case_base, "SQLite file with the object's cases")
       ->required()
       ->check(notEmpty());
@@ -139,6 +143,26 @@ std::vector<Case> otherCases(const TaskArguments& arguments, const Task& task) {
     }
   }
   return others;
+}
+
+nlohmann::ordered_json pushReportJson(const PushReport& report) {
+  if (!isObservation(report)) {
+    return {{"object", report.object_id},
+            {"case", report.case_id},
+            {"outcome", toString(report.outcome)},
+            {"explanation", report.explanation}};
+  }
+  return {{"object", report.object_id},
+          {"case", report.case_id},
+          {"outcome", toString(report.outcome)},
+          {"expected",
+           {report.map_expected.mean.x(), report.map_expected.mean.y(),
+            report.map_expected.mean.yaw()}},
+          {"observed", {report.map_T_end.x(), report.map_T_end.y(), report.map_T_end.yaw()}},
+          {"t_squared", report.test.t_squared},
+          {"p_value", report.test.p_value},
+          {"rejected", report.test.rejected},
+          {"duration_s", report.end_stamp_s - report.start_stamp_s}};
 }
 
 nlohmann::ordered_json poseJson(const Pose2& pose) {

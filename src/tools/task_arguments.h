@@ -22,6 +22,9 @@ struct TaskArguments {
   std::vector<double> goal;   ///< x_m y_m yaw_deg, or empty.
 };
 
+/// --map. @pre `map` lives until the command line is parsed.
+void addMapOption(CLI::App& command, std::string& map);
+
 void addTaskOptions(CLI::App& command, TaskArguments& arguments);
 
 /// How to plan.
@@ -51,6 +54,9 @@ Task prepareTask(const TaskArguments& arguments, const PushContext& context = {}
 
 /// Cases of the other objects, which may be pushed out of the way.
 std::vector<Case> otherCases(const TaskArguments& arguments, const Task& task);
+
+/// What became of one push: poses are [x m, y m, yaw rad] in the map.
+nlohmann::ordered_json pushReportJson(const PushReport& report);
 
 /// {"x_m", "y_m", "yaw_deg"}.
 nlohmann::ordered_json poseJson(const Pose2& pose);

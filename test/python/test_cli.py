@@ -42,9 +42,10 @@ def case_base(tmp_path_factory):
 def test_help_explains_every_command():
     process = casepush("--help")
     assert process.returncode == 0
-    for word in ("learn", "plan", "push", "cases", "world", "bench", "experiment", "Exit code"):
+    for word in ("learn", "plan", "push", "rearrange", "cases", "world", "bench", "experiment",
+                 "Exit code"):
         assert word in process.stdout
-    for command in ("learn", "plan", "push", "cases", "world", "bench"):
+    for command in ("learn", "plan", "push", "rearrange", "cases", "world", "bench"):
         assert casepush(command, "--help").returncode == 0
 
 
@@ -154,6 +155,33 @@ def test_pushes_a_chair_to_a_goal(case_base):
     assert {"replans", "plan_length_m", "sim_time_s", "timing"} <= set(result)
     assert "push 1 of" in process.stderr
     assert sum(result["replan_causes"].values()) == result["replans"]
+
+
+def test_rearranges_two_chairs(case_base):
+    world = os.path.join(DATA, "two_chairs.yaml")
+    process = casepush("rearrange", "--world", world, "--case-base", case_base, "--goal",
+                       "chair_1:1.6,0.6,0", "--goal", "chair_2:1.6,-1.8,0", "--caster-model",
+                       "planar", "--seed", 1, "--json")
+    result = result_of(process)
+    assert process.returncode == 0 and result["success"], process.stderr + process.stdout
+    assert result["order"][0] == "chair_2"  # It stands in the way of chair_1.
+    assert [each["object"] for each in result["objects"]] == ["chair_1", "chair_2"]
+    for each in result["objects"]:
+        assert each["at_goal"] and each["turns"] >= 1 and each["pushes"] > 0
+        assert each["position_error_m"] < 0.2
+    assert {push["object"] for push in result["push_reports"]} == {"chair_1", "chair_2"}
+
+
+@pytest.mark.parametrize("goal, words", [
+    ("chair_1", "id:x,y,yaw"), ("chair_1:1,2", "id:x,y,yaw"), ("chair_1:1,2,x", "id:x,y,yaw"),
+    ("chair_1:nan,0,0", "id:x,y,yaw"), ("chair_1:99,0,0", "outside of world"),
+    ("piano:1,0,0", "no object 'piano'")])
+def test_refuses_bad_goals_of_rearrange(case_base, goal, words):
+    process = casepush("rearrange", "--world", os.path.join(DATA, "two_chairs.yaml"),
+                       "--case-base", case_base, "--goal", goal)
+    assert process.returncode == 2
+    assert words in process.stderr
+    assert len(process.stderr.strip().splitlines()) == 1
 
 
 def test_keeps_what_a_loaded_object_taught_beside_what_is_known(tmp_path, case_base):

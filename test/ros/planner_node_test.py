@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The planner answers every goal: with a plan, or with what is wrong."""
 
+import copy
 import math
 import sys
 import time
@@ -112,6 +113,31 @@ class PlannerNodeTest(unittest.TestCase):
         harness.wait_until(
             lambda: self.plan(self.goal()).status == PlanPushResult.NO_CASES, what="no cases")
 
+    def test_says_that_cases_are_larger_than_the_room(self):
+        few = PushCaseArray(cases=[harness.made_up_case(1, 0.0, 0.0, length_m=30.0)])
+        self.cases.publish(few)
+        harness.wait_until(lambda: self.plan(self.goal()).status == PlanPushResult.UNREACHABLE,
+                           what="the large case")
+        result = self.plan(self.goal())
+        self.assertIn("no case can be applied", result.explanation)
+        self.assertLess(result.planning_time, 1.0)
+
+    def test_keeps_the_deadline_with_ten_thousand_cases(self):
+        case = harness.made_up_case(1, 0.0, 0.0)
+        many = PushCaseArray(cases=[copy.copy(case) for _ in range(10000)])
+        for number, each in enumerate(many.cases):
+            each.id = number + 1
+        self.cases.publish(many)
+        goal = self.goal(x_m=2.503, y_m=2.911, yaw_rad=3.0, yaw_tolerance=1e-3, deadline=1.0)
+        results = []
+
+        def attempt():
+            results.append(self.plan(goal))
+            return results[-1].status == PlanPushResult.DEADLINE
+
+        harness.wait_until(attempt, 60.0, what="ten thousand cases to arrive")
+        self.assertLess(results[-1].planning_time, goal.deadline + 0.5)
+
     def endless_goal(self):
         """A goal that no chain of cases hits: the search goes on until its deadline."""
         few = harness.made_up_cases()
@@ -165,6 +191,58 @@ class PlannerNodeTest(unittest.TestCase):
         self.assertEqual(result.status, PlanPushResult.INVALID_REQUEST)
         self.assertIn("crystal_ball", result.explanation)
         self.assertIn("exp_rrt", result.explanation)
+
+    def test_bounds_the_risk_of_the_whole_plan(self):
+        for planner in ("exp_rrt", "lattice"):
+            result = self.solved(self.goal(planner=planner, risk="chance",
+                                           max_collision_probability=0.1))
+            self.assertEqual(result.status, PlanPushResult.SOLVED, result.explanation)
+            plan = result.plan
+            self.assertEqual(plan.risk, "chance")
+            self.assertEqual(plan.max_collision_probability, 0.1)
+            self.assertLessEqual(plan.collision_probability, 0.1)
+            self.assertTrue(0.0 < plan.goal_probability <= 1.0, plan.goal_probability)
+            self.assertTrue(all(push.collision_probability <= 0.1 for push in plan.pushes))
+            spread = [push.compounded.covariance[0] for push in plan.pushes]
+            self.assertGreater(spread[-1], spread[0])
+        usual = self.solved(self.goal()).plan
+        self.assertEqual((usual.risk, usual.zeta, usual.max_collision_probability),
+                         ("sigma_points", 3.0, 0.0))
+
+    def test_improves_until_the_deadline(self):
+        goal = self.goal(x_m=4.0, y_m=4.0, yaw_rad=3.0, state_given=True, deadline=2.0)
+        placed = ObjectPose(id=harness.OBJECT, model="office_chair")
+        placed.pose.x = placed.pose.y = -3.5
+        goal.objects = [placed]
+        goal.robot.y = -3.0
+        first = self.solved(goal)
+        goal.anytime = True
+        costs = []
+        self.client.send_goal(goal,
+                              feedback_cb=lambda feedback: costs.append(feedback.best_cost))
+        result = harness.result_of(self.client)
+        self.assertEqual(result.status, PlanPushResult.SOLVED, result.explanation)
+        self.assertGreater(result.planning_time, 1.5)
+        self.assertLess(result.planning_time, goal.deadline + 0.5)
+        self.assertTrue(any(math.isfinite(cost) for cost in costs), costs)
+        self.assertEqual(costs, sorted(costs, reverse=True))
+        self.assertGreater(result.expected_time, 0.0)
+        self.assertLessEqual(result.expected_time, costs[-1] + 1e-6)
+        self.assertLessEqual(result.expected_time, first.expected_time)
+
+    def test_names_the_bounds_of_risks(self):
+        for fields, words in (
+                ({"risk": "luck"}, "sigma_points, chance"),
+                ({"risk": "chance", "max_collision_probability": 1.5}, "(0, 1]"),
+                ({"risk": "chance", "max_collision_probability": math.nan}, "(0, 1]"),
+                ({"max_collision_probability": 0.1}, "needs risk: chance"),
+                ({"risk": "chance", "planner": "ompl_rrt"}, "use lattice or exp_rrt"),
+                ({"deadline": -1.0}, "deadline"),
+                ({"deadline": math.nan}, "deadline")):
+            result = self.solved(self.goal(**fields))
+            self.assertEqual(result.status, PlanPushResult.INVALID_REQUEST, result.explanation)
+            self.assertIn(words, result.explanation)
+            self.assertNotIn("\n", result.explanation)
 
     def test_says_that_the_object_stands_in_a_wall(self):
         goal = self.goal(state_given=True)

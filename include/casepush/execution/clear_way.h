@@ -11,6 +11,9 @@
 
 namespace casepush {
 
+/// Gives the current cases of all objects; the same vector until one of them changes.
+using CaseSource = std::function<std::shared_ptr<const std::vector<Case>>()>;
+
 struct ClearWayOptions {
   ExecutePushOptions push;
   int max_pushes = 20;  ///< Of all obstacles together.
@@ -38,12 +41,10 @@ struct ClearWayServices {
   std::function<void(const PushReport&)> on_report;  ///< Called once for each push.
 };
 
-/// All of them but on_report from a planner.
-/// @param planner  Must outlive the result.
-/// @param cases    Current cases of all objects; an object without cases of this robot is not
-///   movable.
-ClearWayServices clearWayServices(const PushPlanner& planner, const std::string& robot,
-                                  std::function<std::vector<Case>()> cases);
+/// All of them but on_report from a planner, which is asked for anew each time.
+/// @param cases  An object without cases of this robot is not movable.
+ClearWayServices clearWayServices(const PlannerSource& planner, const std::string& robot,
+                                  const CaseSource& cases);
 
 /// Pushes movable obstacles out of the way of a plan's next pushes (paper section 4).
 ///

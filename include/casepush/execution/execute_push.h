@@ -97,6 +97,9 @@ struct ExecutePushOptions {
 /// `recorded.start_outcome.mean`.
 bool isObservation(const PushReport& report);
 
+/// Gives a planner on the newest map.
+using PlannerSource = std::function<std::shared_ptr<const PushPlanner>()>;
+
 /// Finds the robot's way to `goal` ending straight along `dock_direction_rad` (in the map).
 using ApproachPlanner = std::function<RobotPath(const Observation& observation, const Pose2& goal,
                                                 double dock_direction_rad)>;
@@ -104,6 +107,8 @@ using ApproachPlanner = std::function<RobotPath(const Observation& observation, 
 /// The approach planner of a push planner: all objects but `object_id` stand around.
 /// @param planner  Must outlive the result.
 ApproachPlanner approachPlanner(const PushPlanner& planner, const std::string& object_id);
+/// The same with a planner that is asked for anew each time.
+ApproachPlanner approachPlanner(const PlannerSource& planner, const std::string& object_id);
 
 /// Every object of an observation but one, as obstacles.
 std::vector<PlacedObject> otherObjects(const Observation& observation, const std::string& but_id);

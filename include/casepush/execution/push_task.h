@@ -119,7 +119,7 @@ struct PushTaskServices {
   ApproachPlanner approach;
   InTheWay in_the_way;  ///< Ids of the objects that any push of a plan hits; by the checker if it
                         ///< is not given, and without one nobody.
-  std::function<std::vector<Case>()> cases;  ///< Current cases of all objects.
+  CaseSource cases;     ///< Current cases of all objects.
   /// What pushing others out of the way takes; absent: they stand still. on_report is that below.
   std::optional<ClearWayServices> clearing;
   std::function<void(const PushReport&)> on_report;  ///< Called once for each push.

@@ -10,7 +10,7 @@
 namespace casepush {
 
 /// Goals of several objects. Ids differ.
-struct RearrangeGoal {
+struct RearrangeRequest {
   std::vector<PushTaskGoal> tasks;
   double time_limit_s = 3600.0;  ///< For all of them, by the observations' stamps.
 };
@@ -46,14 +46,19 @@ class Rearrange : public Behaviour {
  public:
   /// @throws InputError from the options, if a service is missing, if there is no goal or an object
   ///   has two.
-  Rearrange(RearrangeGoal goal, RearrangeServices services, RearrangeOptions options);
+  Rearrange(RearrangeRequest goal, RearrangeServices services, RearrangeOptions options);
   ~Rearrange() override;
 
   Tick tick(const Observation& observation) override;
   std::string describe() const override;
-  void cancel();
+  void cancel();  ///< The next tick ends it.
 
-  /// How far each goal has come, in the order of RearrangeGoal::tasks.
+  /// kRunning, kSucceeded, kCancelled, kTimeout, kRobotLost, kPlannerGone, or kNoProgress if some
+  /// objects are not at their goals after all rounds.
+  PushTaskStatus status() const;
+  bool isLooking() const;  ///< Before the order of the first round is chosen.
+
+  /// How far each goal has come, in the order of RearrangeRequest::tasks.
   struct Item {
     std::string object_id;
     PushTaskStatus status = PushTaskStatus::kRunning;  ///< kRunning also before its turn.
@@ -62,7 +67,8 @@ class Rearrange : public Behaviour {
     int pushes = 0;
   };
   const std::vector<Item>& items() const;
-  const std::vector<int>& order() const;  ///< Of the present round; empty before it is known.
+  const std::vector<int>& order() const;  ///< Of the last round; empty before it is known.
+  std::size_t turn() const;               ///< Index in order() of the task that runs.
   const PushTask* task() const;           ///< The one that runs; nullptr if none does.
 
  private:

@@ -15,7 +15,7 @@ namespace casepush {
 /// Plans at once, in the caller's thread: the lab's PlanClient.
 class DirectPlanClient : public PlanClient {
  public:
-  DirectPlanClient(const PushPlanner& planner, std::function<std::vector<Case>()> cases);
+  DirectPlanClient(const PushPlanner& planner, CaseSource cases);
 
   void request(const PlanRequest& request) override;
   std::optional<PlanResult> poll() override;
@@ -24,7 +24,7 @@ class DirectPlanClient : public PlanClient {
 
  private:
   const PushPlanner& planner_;
-  std::function<std::vector<Case>()> cases_;
+  CaseSource cases_;
   std::optional<PlanResult> result_;
 };
 

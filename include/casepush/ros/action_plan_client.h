@@ -7,8 +7,10 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "casepush/model/push_plan.h"
+#include "casepush/ros/search_choice.h"
 
 namespace casepush {
 
@@ -16,6 +18,9 @@ namespace casepush {
 class ActionPlanClient : public PlanClient {
  public:
   explicit ActionPlanClient(ros::NodeHandle handle);
+
+  /// How requests from now on are to be planned.
+  void setSearch(SearchChoice search) { search_ = std::move(search); }
 
   void request(const PlanRequest& request) override;
   std::optional<PlanResult> poll() override;
@@ -31,6 +36,7 @@ class ActionPlanClient : public PlanClient {
   void onTransition(const Client::GoalHandle& goal);
 
   ros::NodeHandle handle_;
+  SearchChoice search_;
   mutable Client client_;
   Client::GoalHandle goal_;
   bool pending_ = false;

@@ -109,4 +109,19 @@ class ExecutePushActivity : public Activity {
 
 const char* toString(ExecutePush::Phase phase);
 
+/// Of a task that pushes an object; activity, object and description are left to the caller.
+ExecutorState stateOf(const PushTaskProgress& progress);
+
+/// Ends a goal in the state that belongs to how its activity ended.
+template <typename GoalHandle, typename Result>
+void endGoal(GoalHandle& goal, ActivityEnd how, bool success, const Result& result) {
+  if (how == ActivityEnd::kCancelled) {
+    goal.setCanceled(result, result.explanation);
+  } else if (success) {
+    goal.setSucceeded(result, result.explanation);
+  } else {
+    goal.setAborted(result, result.explanation);
+  }
+}
+
 }  // namespace casepush

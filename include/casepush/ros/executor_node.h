@@ -24,6 +24,7 @@
 #include "casepush/ros/command_guard.h"
 #include "casepush/ros/diagnostics.h"
 #include "casepush/ros/node_parameters.h"
+#include "casepush/ros/rearrange_activity.h"
 #include "casepush/ros/watchdog.h"
 
 namespace casepush {
@@ -47,6 +48,7 @@ class ExecutorNode {
   void onOdometry(const nav_msgs::Odometry& message);
   void onPushObject(PushObjectServer::GoalHandle goal);
   void onExecutePush(ExecutePushServer::GoalHandle goal);
+  void onRearrange(RearrangeServer::GoalHandle goal);
   template <typename GoalHandle>
   void onCancel(GoalHandle goal);
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -58,10 +60,17 @@ class ExecutorNode {
   std::string whoIsBusy() const;
   /// Why nothing can be executed now; "" if all is there.
   std::string whatIsMissing() const;
+  /// The same for tasks that push these objects.
+  std::string whatIsMissingFor(const std::vector<std::string>& object_ids) const;
   PushTaskGoal taskGoal(const PushObjectGoal& goal) const;
+  RearrangeRequest rearrangeRequest(const RearrangeGoal& goal) const;
+  /// With whatever map and cases there are when they are asked.
+  PushTaskServices::InTheWay inTheWay() const;
+  PushTaskServices taskServices(const std::string& object_id);
+  RearrangeServices rearrangeServices();  ///< But for make_task.
   ExecutePush makePush(const ExecutePushGoal& goal) const;
   ApproachPlanner approach(const std::string& object_id) const;
-  std::vector<Case> casesOf(const std::string& model) const;
+  bool hasCasesOf(const std::string& model) const;
 
   void begin(std::unique_ptr<Activity> activity);
   void tick(double now_s);
@@ -79,7 +88,7 @@ class ExecutorNode {
   tf2_ros::TransformListener listener_;
 
   std::shared_ptr<const PushPlanner> checker_;  ///< Null until there is a map.
-  std::vector<Case> cases_;
+  std::shared_ptr<const std::vector<Case>> cases_ = std::make_shared<const std::vector<Case>>();
   std::vector<ObjectState> objects_;
   double objects_stamp_s_ = -1e9;
   SilenceTimer objects_silence_;
@@ -113,6 +122,7 @@ class ExecutorNode {
   ros::WallTimer tick_check_;
   PushObjectServer push_object_;
   ExecutePushServer execute_push_;
+  RearrangeServer rearrange_;
   Diagnostics diagnostics_;  ///< Its timer uses the members above.
   Watchdog watchdog_;        ///< Last: its thread uses command_.
 };

@@ -62,6 +62,7 @@ constexpr const char* kStopDemonstrationService = "demonstration/stop";
 constexpr const char* kLearnObjectAction = "learn_object";
 constexpr const char* kPlanPushAction = "plan_push";
 constexpr const char* kPushObjectAction = "push_object";
+constexpr const char* kRearrangeAction = "rearrange";
 constexpr const char* kExecutePushAction = "execute_push";
 
 // Frames (REP 105).

@@ -7,7 +7,6 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -38,9 +37,9 @@ class PlannerNode {
 
   /// Completes a goal: goal pose in the map frame, current state unless it is given.
   PlanRequest request(const PlanPushGoal& goal);
-  /// Of the kind that a goal asks for, on the newest map; nullptr without a map.
-  /// @throws InputError if there is no planner of that name.
-  std::shared_ptr<const PushPlanner> plannerFor(const std::string& kind);
+  /// As a goal asks for, on the newest map; nullptr without a map.
+  /// @throws InputError naming what cannot be asked for.
+  std::shared_ptr<const PushPlanner> plannerFor(const PlanPushGoal& goal);
   PlanResult plan(const PlanPushGoal& goal);
   void show(const PlanResult& result, const std::vector<Case>& cases);
   void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -51,9 +50,8 @@ class PlannerNode {
   tf2_ros::TransformListener listener_;
 
   std::mutex mutex_;  ///< Guards what the callbacks write and the action's thread reads.
-  std::shared_ptr<const Map> map_;
-  std::map<PlannerKind, std::shared_ptr<const PushPlanner>> planners_;  ///< On that map.
-  std::vector<Case> cases_;
+  std::shared_ptr<const PushPlanner> planner_;  ///< On the newest map; null before there is one.
+  std::shared_ptr<const std::vector<Case>> cases_ = std::make_shared<const std::vector<Case>>();
   PushableObjectArray objects_;
   PlanResult last_result_;
   std::uint32_t plan_count_ = 0;

@@ -143,7 +143,9 @@ class PushTaskTest : public testing::Test {
     goal.object_id = "chair_1";
     goal.map_T_goal = Pose2(2.0, 1.0, 0.5);
     services.plans = &plans;
-    services.cases = [] { return learntCases(); };
+    services.cases = [cases = std::make_shared<const std::vector<Case>>(learntCases())] {
+      return cases;
+    };
     services.approach = detour;
     services.continue_plan = [](const PushPlan& rest, const Pose2& pose, const std::vector<Case>&,
                                 const std::vector<PlacedObject>&) {

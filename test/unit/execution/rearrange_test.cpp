@@ -77,7 +77,7 @@ class RearrangeTest : public PushTaskTest {
     return BehaviourStatus::kRunning;
   }
 
-  RearrangeGoal wanted;
+  RearrangeRequest wanted;
   RearrangeServices rearranging;
   RearrangeOptions rearrange_options;
   std::vector<std::string> started;
@@ -115,6 +115,7 @@ TEST_F(RearrangeTest, WhoStandsInTheWayGoesFirstAndFailuresAreTriedAgain) {
   EXPECT_EQ(rearrange.items()[0].status, PushTaskStatus::kSucceeded);
   EXPECT_EQ(rearrange.items()[1].status, PushTaskStatus::kInvalidGoal);
   EXPECT_NE(rearrange.describe().find("crate_1"), std::string::npos);
+  EXPECT_EQ(rearrange.status(), PushTaskStatus::kNoProgress);
 }
 
 TEST_F(RearrangeTest, AGoalOnAnothersWayGoesLast) {
@@ -138,10 +139,22 @@ TEST_F(RearrangeTest, CancelEndsItStandingStill) {
   const Tick tick = rearrange.tick(world.observe());
   EXPECT_EQ(tick.status, BehaviourStatus::kFailed);
   EXPECT_TRUE(isZero(tick.command.twist));
+  EXPECT_EQ(rearrange.status(), PushTaskStatus::kCancelled);
+  EXPECT_EQ(rearrange.items()[0].status, PushTaskStatus::kCancelled);
+}
+
+TEST_F(RearrangeTest, EndsWhenItsTimeIsUp) {
+  wanted.time_limit_s = 8.0;
+  const double began_s = world.now_s;
+  Rearrange rearrange(wanted, rearranging, rearrange_options);
+  EXPECT_EQ(runAll(rearrange), BehaviourStatus::kFailed);
+  EXPECT_LT(world.now_s, began_s + 10.0);
+  EXPECT_EQ(rearrange.status(), PushTaskStatus::kTimeout);
+  EXPECT_EQ(rearrange.items()[0].status, PushTaskStatus::kTimeout);
 }
 
 TEST_F(RearrangeTest, RefusesBadGoals) {
-  EXPECT_THROW(Rearrange(RearrangeGoal{}, rearranging, rearrange_options), InputError);
+  EXPECT_THROW(Rearrange(RearrangeRequest{}, rearranging, rearrange_options), InputError);
   wanted.tasks.push_back(goal);
   EXPECT_THROW(Rearrange(wanted, rearranging, rearrange_options), InputError);
   wanted.tasks.pop_back();

@@ -137,6 +137,37 @@ TEST(PushConversions, plansComeBack) {
   ASSERT_EQ(back.pushes.size(), 2U);
   EXPECT_EQ(back.pushes[1].case_id, 5);
   EXPECT_DOUBLE_EQ(back.pushes[1].map_outcome.mean.x(), 2.0);
+  EXPECT_EQ(message.risk, "sigma_points");
+  EXPECT_FALSE(back.max_collision_probability);
+}
+
+TEST(PushConversions, risksOfPlansComeBack) {
+  PushPlan plan;
+  plan.zeta = 0.0;
+  plan.max_collision_probability = 0.1;
+  plan.collision_probability = 0.04;
+  plan.goal_probability = 0.7;
+  plan.pushes.resize(1);
+  plan.pushes[0].collision_probability = 0.03;
+  plan.pushes[0].map_compounded.mean = Pose2(1, 2, 0.3);
+  plan.pushes[0].map_compounded.covariance = 0.02 * Eigen::Matrix3d::Identity();
+  const Plan message = toMessage(plan, 1.0);
+  EXPECT_EQ(message.risk, "chance");
+  const PushPlan back = fromMessage(message);
+  EXPECT_EQ(back.max_collision_probability, 0.1);
+  EXPECT_DOUBLE_EQ(back.collision_probability, 0.04);
+  EXPECT_DOUBLE_EQ(back.goal_probability, 0.7);
+  EXPECT_DOUBLE_EQ(back.pushes[0].collision_probability, 0.03);
+  EXPECT_DOUBLE_EQ(back.pushes[0].map_compounded.mean.y(), 2.0);
+  EXPECT_DOUBLE_EQ(back.pushes[0].map_compounded.covariance(1, 1), 0.02);
+  for (const double bad : {-0.1, 1.1, std::nan("")}) {
+    Plan wrong = message;
+    wrong.collision_probability = bad;
+    EXPECT_THROW(fromMessage(wrong), InputError) << bad;
+  }
+  Plan wrong = message;
+  wrong.risk = "luck";
+  EXPECT_THROW(fromMessage(wrong), InputError);
 }
 
 TEST(PushConversions, reportsComeBack) {
@@ -207,12 +238,16 @@ TEST(PushConversions, planResultsComeBack) {
   result.nodes = 12;
   result.collision_checks = 34;
   result.planning_s = 0.5;
+  result.expected_s = 61.5;
+  result.bound = 1.5;
   const PlanResult back = fromMessage(toMessage(result, 1.0));
   EXPECT_EQ(back.status, PlanStatus::kDeadline);
   EXPECT_EQ(back.explanation, "too slow");
   EXPECT_EQ(back.nodes, 12);
   EXPECT_EQ(back.collision_checks, 34);
   EXPECT_DOUBLE_EQ(back.planning_s, 0.5);
+  EXPECT_DOUBLE_EQ(back.expected_s, 61.5);
+  EXPECT_DOUBLE_EQ(back.bound, 1.5);
 }
 
 }  // namespace

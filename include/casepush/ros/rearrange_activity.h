@@ -1,0 +1,50 @@
+#pragma once
+
+#include <actionlib/server/action_server.h>
+#include <casepush/RearrangeAction.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "casepush/execution/rearrange.h"
+#include "casepush/ros/activity.h"
+
+namespace casepush {
+
+using RearrangeServer = actionlib::ActionServer<RearrangeAction>;
+
+/// The action rearrange.
+class RearrangeActivity : public Activity {
+ public:
+  using OnReport = std::function<void(const PushReport&)>;
+  /// Makes a task that calls `on_report` for each push.
+  using TaskMaker = std::function<std::unique_ptr<PushTask>(const PushTaskGoal&, OnReport)>;
+
+  /// @param services  But for make_task.
+  /// @param sink      Called for each push.
+  /// @throws InputError if there is no goal or an object has two.
+  RearrangeActivity(RearrangeServer::GoalHandle goal, RearrangeRequest request,
+                    RearrangeServices services, TaskMaker make_task, ReportSink sink);
+
+  Tick tick(const Observation& observation) override;
+  void cancel() override;
+  std::string goalId() const override;
+  std::string describe() const override;
+  ExecutorState state() const override;
+  void publishFeedback() override;
+  void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
+
+ private:
+  RearrangeServices complete(RearrangeServices services, TaskMaker make_task, ReportSink sink);
+  RearrangedObject resultOf(std::size_t index) const;
+
+  RearrangeServer::GoalHandle goal_;
+  RearrangeRequest request_;
+  Rearrange rearrange_;
+  Observation last_;
+  double start_stamp_s_ = -1.0;
+};
+
+}  // namespace casepush
