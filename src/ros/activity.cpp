@@ -49,6 +49,19 @@ const char* toString(ExecutePush::Phase phase) {
   return "unknown";
 }
 
+ReportContext reportContext(const PushTaskProgress& progress, bool adapt, const PushReport& report,
+                            std::size_t* reported_replans) {
+  ReportContext context;
+  context.plan_number = progress.plans;
+  context.push_index = progress.push_index;
+  context.adapted = adapt && report.case_id > 0 && isObservation(report);
+  if (progress.replan_history.size() > *reported_replans) {
+    context.replan_cause = toString(progress.replan_history.back());
+    *reported_replans = progress.replan_history.size();
+  }
+  return context;
+}
+
 PushObjectActivity::PushObjectActivity(PushObjectServer::GoalHandle goal, PushTaskGoal task_goal,
                                        RobotModel robot, PushTaskServices services,
                                        PushTaskOptions options, ReportSink sink)
@@ -60,16 +73,7 @@ PushObjectActivity::PushObjectActivity(PushObjectServer::GoalHandle goal, PushTa
 PushTaskServices PushObjectActivity::withReports(PushTaskServices services, ReportSink sink) {
   services.on_report = [this, sink = std::move(sink)](const PushReport& report) {
     last_t_squared_ = report.test.t_squared;
-    const PushTaskProgress& progress = task_.progress();
-    ReportContext context;
-    context.plan_number = progress.plans;
-    context.push_index = progress.push_index;
-    context.adapted = task_goal_.adapt && report.case_id > 0 && isObservation(report);
-    if (progress.replan_history.size() > reported_replans_) {
-      context.replan_cause = toString(progress.replan_history.back());
-      reported_replans_ = progress.replan_history.size();
-    }
-    sink(report, context);
+    sink(report, reportContext(task_.progress(), task_goal_.adapt, report, &reported_replans_));
   };
   return services;
 }
@@ -176,7 +180,8 @@ std::optional<TaskSummary> PushObjectActivity::summary(ActivityEnd how,
 }
 
 void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation, double now_s) {
-  endGoal(goal_, how, task_.status() == PushTaskStatus::kSucceeded, result(how, explanation, now_s));
+  endGoal(goal_, how, task_.status() == PushTaskStatus::kSucceeded,
+          result(how, explanation, now_s));
 }
 
 ExecutePushActivity::ExecutePushActivity(ExecutePushServer::GoalHandle goal, ExecutePush push,

@@ -29,10 +29,9 @@ RearrangeServices RearrangeActivity::complete(RearrangeServices services, TaskMa
                                               ReportSink sink) {
   services.make_task = [this, make_task = std::move(make_task),
                         sink = std::move(sink)](const PushTaskGoal& task) {
-    return make_task(task, [this, sink, adapt = task.adapt](const PushReport& report) {
-      const PushTaskProgress& progress = rearrange_.task()->progress();
-      sink(report, {progress.plans, progress.push_index,
-                    adapt && report.case_id > 0 && isObservation(report)});
+    return make_task(task, [this, sink, adapt = task.adapt,
+                            told = std::size_t{0}](const PushReport& report) mutable {
+      sink(report, reportContext(rearrange_.task()->progress(), adapt, report, &told));
     });
   };
   return services;

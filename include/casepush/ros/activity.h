@@ -32,6 +32,11 @@ struct ReportContext {
 };
 using ReportSink = std::function<void(const PushReport&, const ReportContext&)>;
 
+/// The context of a report of a task.
+/// @param reported_replans  How many of the task's re-plans were told before; counted on.
+ReportContext reportContext(const PushTaskProgress& progress, bool adapt, const PushReport& report,
+                            std::size_t* reported_replans);
+
 /// A behaviour that an action goal asked for.
 class Activity {
  public:
