@@ -165,7 +165,7 @@ class Story:
                     for c in self.cases]
             end, case = min(ends, key=lambda e: e[0].distance_m(goal))
             pushes.append((case, end))
-            plan.pushes.append(msg.PlanStep(case.id, pose2d(here), gaussian(end)))
+            plan.pushes.append(msg.PlanStep(case_id=case.id, start=pose2d(here), outcome=gaussian(end)))
             plan.length += here.distance_m(end)
             here = end
         self.write('/plan', plan)
