@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "context_view.h"
+#include "predictive.h"
 
 namespace casepush {
 namespace {
@@ -133,10 +134,15 @@ void AdaptingCases::compare(const std::vector<Case>& known, std::int64_t id,
     const auto member = family.find(key);
     if (member == family.end() || expected == nullptr) {
       other.second.addNothing();
-    } else {
-      other.second.addLogRatio(logPredictive(statistics(*member->second), start_T_object) -
-                               logPredictive(statistics(*expected), start_T_object));
+      continue;
     }
+    const double log_ratio = logPredictive(statistics(*member->second), start_T_object) -
+                             logPredictive(statistics(*expected), start_T_object);
+    // Many pushes do about the same in either circumstances, and whichever case is known better
+    // wins then. Only what surprises the present one speaks for another; a bet with less to win is
+    // a fair one still.
+    const bool counts = isSurprising(statistics(*expected), start_T_object);
+    other.second.addLogRatio(counts ? log_ratio : std::min(0.0, log_ratio));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "casepush/cases/outcome_statistics.h"
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
+#include "predictive.h"
 
 namespace casepush {
 namespace {
@@ -44,14 +45,26 @@ double hotellingTail(double t_squared, double n) {
   return boost::math::cdf(boost::math::complement(f, ratio));
 }
 
-// Deviation of an observation from the mean, in the frame of the mean.
+// In the frame of the mean.
+Eigen::Vector3d meanDeviation(const OutcomeStatistics& past, const Pose2& start_T_object) {
+  return logSe2(past.start_outcome.mean.inverse() * start_T_object);
+}
+
+// Deviation of an observation from the mean.
 Eigen::Vector3d deviation(const OutcomeStatistics& past, const Pose2& start_T_object,
                           double alpha) {
   CASEPUSH_CHECK(alpha > 0.0 && alpha < 1.0, "alpha = " << alpha);
   if (!start_T_object.isFinite()) {
     throw InputError("observed outcome", "is not finite");
   }
-  return logSe2(past.start_outcome.mean.inverse() * start_T_object);
+  return meanDeviation(past, start_T_object);
+}
+
+Eigen::Matrix3d predictiveCovariance(const OutcomeStatistics& past) {
+  CASEPUSH_CHECK(past.effective_count > 0.0, "count = " << past.effective_count);
+  const double n = past.effective_count;
+  const double spread = n < 1.0 ? 1.0 : 1.0 + 1.0 / n;
+  return spread * past.start_outcome.covariance + diagonal(kUnexplained);
 }
 
 PredictionTest verdict(double t_squared, double p_value, double alpha) {
@@ -79,13 +92,15 @@ PredictionTest testPrediction(const OutcomeStatistics& past, const Pose2& start_
 }
 
 double logPredictive(const OutcomeStatistics& past, const Pose2& start_T_object) {
-  CASEPUSH_CHECK(past.effective_count > 0.0, "count = " << past.effective_count);
-  const double n = past.effective_count;
-  const double spread = n < 1.0 ? 1.0 : 1.0 + 1.0 / n;
-  const Eigen::Matrix3d covariance =
-      spread * past.start_outcome.covariance + diagonal(kUnexplained);
-  const Eigen::Vector3d e = logSe2(past.start_outcome.mean.inverse() * start_T_object);
-  return -0.5 * (e.dot(covariance.ldlt().solve(e)) + std::log(covariance.determinant()));
+  const Eigen::Matrix3d covariance = predictiveCovariance(past);
+  return -0.5 * (squaredMahalanobis(meanDeviation(past, start_T_object), covariance) +
+                 std::log(covariance.determinant()));
+}
+
+bool isSurprising(const OutcomeStatistics& past, const Pose2& start_T_object) {
+  constexpr double kChiSquare90 = 6.251;  // 3 degrees of freedom.
+  return squaredMahalanobis(meanDeviation(past, start_T_object), predictiveCovariance(past)) >
+         kChiSquare90;
 }
 
 PredictionTest testPlugIn(const OutcomeStatistics& past, const Pose2& start_T_object,

@@ -95,6 +95,15 @@ TEST_F(AdaptingCasesTest, recognisesCircumstancesMetBefore) {
   EXPECT_EQ(base_.count(), 8);
 }
 
+/// A load that changes nothing for some pushes must not be doubted for that.
+TEST_F(AdaptingCasesTest, keepsToWhatWasToldAsLongAsItIsNoWorse) {
+  PushContext told;
+  told.load_kg = 15.0;
+  adapting_.tell("chair", told);
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(push(i % 4, 1.0), "");
+  EXPECT_EQ(adapting_.context("chair"), told);
+}
+
 TEST_F(AdaptingCasesTest, numbersFurtherChanges) {
   pushUntilNoticed(0.5, 4);
   for (int i = 0; i < 60; ++i) push(i % 4, 0.5);
