@@ -6,6 +6,7 @@
 
 #include "context_view.h"
 #include "predictive.h"
+#include "same_pose.h"
 
 namespace casepush {
 namespace {
@@ -34,10 +35,6 @@ OutcomeStatistics statistics(const Case& push_case) {
 /// Whether a case was learnt in the present circumstances; in unknown ones all were that were told.
 bool isIn(const PushContext& context, const PushContext& present) {
   return present == PushContext{} ? context.noticed == 0 : contextDistance(context, present) == 0.0;
-}
-
-bool isSame(const Pose2& a, const Pose2& b) {
-  return a.x() == b.x() && a.y() == b.y() && a.yaw() == b.yaw();
 }
 
 }  // namespace
@@ -99,10 +96,11 @@ std::string AdaptingCases::learnFrom(const PushReport& report) {
   const std::string object = base_->get(report.case_id).object;
   Circumstances& now = of(object);
   const ObservedPush push = observedPush(report, now.context);
+  const std::vector<Case> known = base_->cases(object);
   if (options_.notice) {
-    compare(base_->cases(object), report.case_id, push.start_T_object, &now);
+    compare(known, report.case_id, push.start_T_object, &now);
   }
-  const auto [id, is_new] = memberFor(report.case_id, now.context);
+  const auto [id, is_new] = memberFor(report.case_id, known, now.context);
   base_->adapt(id, push, report.test.p_value, options_.adaptation, options_.floor);
   if (!options_.notice) {
     return {};
@@ -167,13 +165,14 @@ std::string AdaptingCases::judge(const std::string& object, Circumstances* now) 
 }
 
 /// The case of a family that is to learn in a context, and whether it was made for that now.
+/// @param known  All cases of the object as they are stored now.
 std::pair<std::int64_t, bool> AdaptingCases::memberFor(std::int64_t id,
+                                                       const std::vector<Case>& known,
                                                        const PushContext& context) {
-  const Case original = base_->get(id);
   if (context == PushContext{}) return {id, false};
-  ContextView view(base_->cases(original.object), context);
+  ContextView view(known, context);
   if (const Case* member = view.member(id)) return {member->id, false};
-  Case copy = view.expected(original);
+  Case copy = view.expected(*findCase(known, id));
   copy.source_id = id;
   copy.observation_count = 0;  // None in this context.
   copy.context = context;
@@ -197,7 +196,7 @@ std::string AdaptingCases::change(const std::string& object, PushContext context
   const PushContext before = now->context;
   tell(object, context);
   for (Testimony testimony : since) {
-    const std::int64_t id = memberFor(testimony.case_id, context).first;
+    const std::int64_t id = memberFor(testimony.case_id, base_->cases(object), context).first;
     testimony.push.context = context;
     const PredictionTest test =
         testPrediction(statistics(base_->get(id)), testimony.push.start_T_object, kAlpha);

@@ -8,17 +8,14 @@
 #include "case_blobs.h"
 #include "casepush/cases/case_tube.h"
 #include "casepush/common/input_error.h"
+#include "same_pose.h"
 
 namespace casepush {
 namespace {
 
 using Kind = SqliteTransaction::Kind;
 
-bool isSame(const Pose2& a, const Pose2& b) {
-  return a.x() == b.x() && a.y() == b.y() && a.yaw() == b.yaw();
-}
-
-// The same push: two pushes never agree in the last bit. The stamp may be unknown on one side.
+// The same push. The stamp may be unknown on one side.
 bool isSame(const ObservedOutcome& a, const ObservedOutcome& b) {
   const bool same_time = !a.stamp_s || !b.stamp_s || a.stamp_s == b.stamp_s;
   return same_time && isSame(a.start_T_object, b.start_T_object);

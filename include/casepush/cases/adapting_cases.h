@@ -68,7 +68,8 @@ class AdaptingCases {
   };
 
   Circumstances& of(const std::string& object);
-  std::pair<std::int64_t, bool> memberFor(std::int64_t id, const PushContext& context);
+  std::pair<std::int64_t, bool> memberFor(std::int64_t id, const std::vector<Case>& known,
+                                          const PushContext& context);
   void compare(const std::vector<Case>& known, std::int64_t id, const Pose2& start_T_object,
                Circumstances* now) const;
   std::string judge(const std::string& object, Circumstances* now);

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "casepush/common/pose2.h"
+
+namespace casepush {
+
+/// To the last bit: two pushes never agree in that.
+inline bool isSame(const Pose2& a, const Pose2& b) {
+  return a.x() == b.x() && a.y() == b.y() && a.yaw() == b.yaw();
+}
+
+}  // namespace casepush
