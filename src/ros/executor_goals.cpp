@@ -35,21 +35,35 @@ void reject(GoalHandle& goal, std::uint8_t status, const std::string& explanatio
   ROS_WARN("goal rejected: %s", explanation.c_str());
 }
 
+/// Begins a goal, or rejects it.
+/// @param busy   What is going on; "" if nothing.
+/// @param begin  Begins it, or returns what is missing; throws if the goal makes no sense.
+template <typename Result, typename GoalHandle, typename Begin>
+void beginOrReject(GoalHandle& goal, const std::string& busy, const Begin& begin) {
+  if (!busy.empty()) {
+    return reject<Result>(goal, Result::BUSY, "busy: " + busy);
+  }
+  try {
+    const std::string missing = begin();
+    if (!missing.empty()) {
+      reject<Result>(goal, Result::NOT_READY, missing);
+    }
+  } catch (const InputError& error) {
+    reject<Result>(goal, Result::INVALID_GOAL, error.what());
+  } catch (const tf2::TransformException& error) {
+    reject<Result>(goal, Result::INVALID_GOAL, error.what());
+  }
+}
+
 }  // namespace
 
 void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
-  const PushObjectGoal& wanted = *goal.getGoal();
-  if (!whoIsBusy().empty()) {
-    return reject<PushObjectResult>(goal, PushObjectResult::BUSY, "busy: " + whoIsBusy());
-  }
-  try {
-    const PushTaskGoal task = taskGoal(wanted);
-    const SearchChoice search = searchOf(wanted);
+  beginOrReject<PushObjectResult>(goal, whoIsBusy(), [&] {
+    const PushTaskGoal task = taskGoal(*goal.getGoal());
+    const SearchChoice search = searchOf(*goal.getGoal());
     withSearch(parameters_.planner, search);
     const std::string missing = whatIsMissingFor({task.object_id});
-    if (!missing.empty()) {
-      return reject<PushObjectResult>(goal, PushObjectResult::NOT_READY, missing);
-    }
+    if (!missing.empty()) return missing;
     plans_.setSearch(search);
     auto activity = std::make_unique<PushObjectActivity>(
         goal, task, parameters_.furnishing.robot, taskServices(task.object_id), parameters_.task,
@@ -58,28 +72,19 @@ void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
         });
     goal.setAccepted();
     begin(std::move(activity));
-  } catch (const InputError& error) {
-    reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL, error.what());
-  } catch (const tf2::TransformException& error) {
-    reject<PushObjectResult>(goal, PushObjectResult::INVALID_GOAL, error.what());
-  }
+    return missing;
+  });
 }
 
 void ExecutorNode::onRearrange(RearrangeServer::GoalHandle goal) {
-  const RearrangeGoal& wanted = *goal.getGoal();
-  if (!whoIsBusy().empty()) {
-    return reject<RearrangeResult>(goal, RearrangeResult::BUSY, "busy: " + whoIsBusy());
-  }
-  try {
-    const RearrangeRequest request = rearrangeRequest(wanted);
-    const SearchChoice search = searchOf(wanted);
+  beginOrReject<RearrangeResult>(goal, whoIsBusy(), [&] {
+    const RearrangeRequest request = rearrangeRequest(*goal.getGoal());
+    const SearchChoice search = searchOf(*goal.getGoal());
     withSearch(parameters_.planner, search);
     std::vector<std::string> ids;
     for (const PushTaskGoal& task : request.tasks) ids.push_back(task.object_id);
     const std::string missing = whatIsMissingFor(ids);
-    if (!missing.empty()) {
-      return reject<RearrangeResult>(goal, RearrangeResult::NOT_READY, missing);
-    }
+    if (!missing.empty()) return missing;
     plans_.setSearch(search);
     const auto make_task = [this](const PushTaskGoal& task, auto on_report) {
       PushTaskServices services = taskServices(task.object_id);
@@ -94,11 +99,8 @@ void ExecutorNode::onRearrange(RearrangeServer::GoalHandle goal) {
         });
     goal.setAccepted();
     begin(std::move(activity));
-  } catch (const InputError& error) {
-    reject<RearrangeResult>(goal, RearrangeResult::INVALID_GOAL, error.what());
-  } catch (const tf2::TransformException& error) {
-    reject<RearrangeResult>(goal, RearrangeResult::INVALID_GOAL, error.what());
-  }
+    return missing;
+  });
 }
 
 ApproachPlanner ExecutorNode::approach(const std::string& object_id) const {
