@@ -12,6 +12,8 @@ const char* toString(ReplanCause cause) {
       return "rest_misses_goal";
     case ReplanCause::kRestCollides:
       return "rest_collides";
+    case ReplanCause::kDeadEndAhead:
+      return "dead_end_ahead";
     case ReplanCause::kEndedBesideGoal:
       return "ended_beside_goal";
     case ReplanCause::kApproachFailed:

@@ -7,6 +7,10 @@
 namespace casepush {
 
 RestVerdict judgeRest(const PushPlanner::Continuation& rest, const RestOptions& options) {
+  if (rest.may_get_stuck) {
+    return {false, ReplanCause::kDeadEndAhead,
+            "the next push may leave the object where no case can be applied"};
+  }
   if (rest.valid) {
     return {true, {}, {}};
   }

@@ -53,6 +53,12 @@ const Contact& deepest(const std::vector<Contact>& contacts) {
 
 }  // namespace
 
+std::string rounded(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.*f", digits, value);
+  return text;
+}
+
 std::string describe(const Pose2& pose) {
   char text[64];
   std::snprintf(text, sizeof(text), "(%.2f, %.2f, %.0f deg)", pose.x(), pose.y(),

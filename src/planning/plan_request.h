@@ -43,5 +43,6 @@ bool mayStart(const std::vector<Contact>& contacts, const CollisionChecker& chec
 
 /// "(1.23, -0.50, 90 deg)"
 std::string describe(const Pose2& pose);
+std::string rounded(double value, int digits);
 
 }  // namespace casepush

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "dead_end_check.h"
 #include "origin_distance.h"
 
 namespace casepush {
@@ -156,6 +157,12 @@ PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
       approaches_(problem, checker->collisions()) {
   rrt_.setProblemDefinition(definition_);
   rrt_.setup();
+  if (problem.options.improvement_extensions > 0 &&
+      problem.options.similarity == Similarity::kMetric) {
+    const auto get = [this](int push) -> const PreparedCase& { return rrt_.cases()[push]; };
+    dead_ends_ = std::make_unique<DeadEndCheck>(
+        problem.request, static_cast<int>(rrt_.cases().size()), get, checker, &approaches_);
+  }
 }
 
 CanApproach PlanSearch::simpleApproach() {
@@ -166,31 +173,35 @@ CanApproach PlanSearch::simpleApproach() {
   };
 }
 
+PlanSearch::~PlanSearch() = default;
+
 PlanSearch::End PlanSearch::run(const SearchClock& clock) {
-  while (true) {
-    if (rrt_.solutions().empty() && !findFirst(clock)) {
-      if (isLate(clock)) {
-        return End::kStopped;
-      }
-      if (!mayBeMissing() && isCutOff(clock)) {
-        return End::kCutOff;
-      }
-      return rrt_.tree().size() >= problem_.options.max_nodes ? End::kNodeLimit : End::kExhausted;
-    }
+  constexpr int kMostDeadEnds = 40;
+  while (!rrt_.solutions().empty() || findFirst(clock)) {
     improve(clock);
-    const int candidate = rrt_.solutions().front();
+    const std::vector<int> chain = rrt_.chain(rrt_.solutions().front());
     const std::optional<int> unreachable =
-        approaches_how_ == Approaches::kSimple ? -1 : findUnreachable(rrt_.chain(candidate), clock);
+        approaches_how_ == Approaches::kSimple ? -1 : findUnreachable(chain, clock);
     if (!unreachable) {
-      return End::kStopped;
+      return solution_ ? End::kFound : End::kStopped;
     }
-    if (*unreachable < 0) {
-      solution_ = candidate;
-      return End::kFound;
+    if (*unreachable >= 0) {
+      has_rejected_ = true;
+      rrt_.reject(*unreachable);
+      continue;
     }
-    has_rejected_ = true;
-    rrt_.reject(*unreachable);
+    const int dead_end = findDeadEnd(chain);
+    if (dead_end < 0 || !solution_) solution_ = solutionOf(chain, dead_end);
+    if (dead_end < 0 || ++dead_end_count_ > kMostDeadEnds) return End::kFound;
+    rrt_.reject(chain[dead_end]);
   }
+  return solution_ ? End::kFound : endWithout(clock);
+}
+
+PlanSearch::End PlanSearch::endWithout(const SearchClock& clock) const {
+  if (isLate(clock)) return End::kStopped;
+  if (!mayBeMissing() && isCutOff(clock)) return End::kCutOff;
+  return rrt_.tree().size() >= problem_.options.max_nodes ? End::kNodeLimit : End::kExhausted;
 }
 
 bool PlanSearch::findFirst(const SearchClock& clock) {
@@ -201,7 +212,8 @@ bool PlanSearch::findFirst(const SearchClock& clock) {
   rrt_.solve(ob::PlannerTerminationCondition([this, quick, &clock] {
     return rrt_.extensionCount() >= quick || isOver(clock, safety_.deadline_share);
   }));
-  if (!rrt_.solutions().empty() || isLate(clock) || mayBeMissing() || isCutOff(clock)) {
+  if (!rrt_.solutions().empty() || solution_ || isLate(clock) || mayBeMissing() ||
+      isCutOff(clock)) {
     return !rrt_.solutions().empty();
   }
   rrt_.solve(ob::PlannerTerminationCondition(
@@ -233,11 +245,13 @@ void PlanSearch::improve(const SearchClock& clock) {
   if (problem_.options.similarity == Similarity::kPaper) {
     return;  // Takes the first solution.
   }
-  const std::int64_t limit =
-      std::int64_t{rrt_.extensionCount()} + problem_.options.improvement_extensions;
+  if (improvement_end_ == 0) {
+    improvement_end_ =
+        std::int64_t{rrt_.extensionCount()} + problem_.options.improvement_extensions;
+  }
   const double share = approaches_how_ == Approaches::kSimple ? kSimpleShare : kThoroughShare;
-  const ob::PlannerTerminationCondition stop([this, limit, share, &clock] {
-    return rrt_.extensionCount() >= limit || isOver(clock, share);
+  const ob::PlannerTerminationCondition stop([this, share, &clock] {
+    return rrt_.extensionCount() >= improvement_end_ || isOver(clock, share);
   });
   const auto wanted = static_cast<std::size_t>(problem_.options.solutions);
   std::size_t before = 0;
@@ -304,14 +318,25 @@ bool ApproachVerifier::canApproachSimply(const Pose2& map_T_object, const Prepar
                              : quick_.canFollow(object, *previous, next);
 }
 
-PushPlan PlanSearch::plan() const {
-  std::vector<int> pushes;
-  for (const int node : rrt_.chain(solution_)) {
-    if (rrt_.tree().node(node).parent != PushNode::kRoot) {
-      pushes.push_back(rrt_.tree().node(node).push);
-    }
+int PlanSearch::findDeadEnd(const std::vector<int>& chain) {
+  if (!dead_ends_) return -1;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    if (std::find(open_ended_.begin(), open_ended_.end(), chain[i]) != open_ended_.end()) continue;
+    const PushNode& pushed = rrt_.tree().node(chain[i]);
+    const Pose2& map_T_start = rrt_.tree().node(pushed.parent).map_T_object;
+    if (dead_ends_->mayEndInOne(map_T_start, rrt_.cases()[pushed.push])) return static_cast<int>(i);
+    open_ended_.push_back(chain[i]);
   }
-  return planOf(problem_.request, rrt_.cases(), pushes, safety_, chance_.risk());
+  return -1;
+}
+
+PlanSearch::Solution PlanSearch::solutionOf(const std::vector<int>& chain, int dead_end) const {
+  std::vector<int> pushes;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    pushes.push_back(rrt_.tree().node(chain[i]).push);
+  }
+  return {planOf(problem_.request, rrt_.cases(), pushes, safety_, chance_.risk()),
+          rrt_.tree().node(chain.back()).cost_s, std::max(0, dead_end)};
 }
 
 }  // namespace casepush

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -118,19 +119,28 @@ enum class Approaches {
   kThorough,  ///< For each push of a solution, by RobotPathPlanner.
 };
 
+class DeadEndCheck;
+
 /// One search with one safety level: grows an Exp-RRT and compares its solutions by
-/// expected time. The robot can get to every push of the result.
+/// expected time. The robot can get to every push of the result. Where plans are improved, those
+/// that may get the object stuck (DeadEndCheck) are taken only if no other was found.
 class PlanSearch {
  public:
   /// All must outlive it.
   PlanSearch(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
              std::shared_ptr<const CaseSet> cases, const GoalGuide& guide, Approaches approaches);
+  ~PlanSearch();
 
   enum class End { kFound, kExhausted, kNodeLimit, kStopped, kCutOff };
   End run(const SearchClock& clock);
 
-  PushPlan plan() const;  ///< @pre run() returned kFound.
-  double expectedS() const { return rrt_.tree().node(solution_).cost_s; }
+  /// What it found. @pre run() returned kFound.
+  struct Solution {
+    PushPlan plan;
+    double expected_s = 0.0;
+    int dead_end = 0;  ///< As PlanResult::dead_end.
+  };
+  const Solution& solution() const { return *solution_; }
   const ExpRrt& rrt() const { return rrt_; }
 
   /// Was a push turned down because the robot may not get to it?
@@ -150,6 +160,10 @@ class PlanSearch {
   /// the clock ran out.
   std::optional<int> findUnreachable(const std::vector<int>& chain, const SearchClock& clock);
   bool canApproach(int node);
+  /// Where in the chain the object may get stuck first; -1 if nowhere.
+  int findDeadEnd(const std::vector<int>& chain);
+  Solution solutionOf(const std::vector<int>& chain, int dead_end) const;
+  End endWithout(const SearchClock& clock) const;
 
   const SearchProblem& problem_;
   SafetyLevel safety_;
@@ -161,8 +175,12 @@ class PlanSearch {
   Approaches approaches_how_;
   ApproachVerifier approaches_;
   bool has_rejected_ = false;
-  std::vector<int> approachable_;  // nodes whose push the robot can get to
-  int solution_ = -1;
+  std::vector<int> approachable_;            // nodes whose push the robot can get to
+  std::unique_ptr<DeadEndCheck> dead_ends_;  // nothing where plans are not improved
+  std::vector<int> open_ended_;              // nodes in which the object does not get stuck
+  int dead_end_count_ = 0;
+  std::int64_t improvement_end_ = 0;  // extensions, from the first solution on
+  std::optional<Solution> solution_;
 };
 
 }  // namespace casepush

@@ -77,6 +77,9 @@ struct PushPlanner::Data {
   ClearingResult clearAway(const ClearingRequest& request, const PlanRequest& plan_request,
                            const std::vector<const Case*>& own, const std::vector<Case>& cases,
                            const SearchClock& clock) const;
+  bool mayGetStuck(const PushPlan& plan, const std::vector<Case>& cases,
+                   const std::vector<PlacedObject>& obstacles,
+                   const std::vector<PlacedSolid>& placed, PushChecker* push_checker) const;
   void chain(const std::vector<Case>& cases, PushChecker* push_checker, Continuation* rest) const;
 };
 

@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::size_t kShownEdges = 4000;  // More than can be told apart on a screen.
 
-std::string rounded(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.*f", digits, value);
-  return text;
-}
-
 void addTree(const ExpRrt& rrt, PlanResult* result) {
   const PushTree& tree = rrt.tree();
   result->nodes += tree.size();
@@ -37,9 +31,11 @@ void addTree(const ExpRrt& rrt, PlanResult* result) {
   }
 }
 
-std::string solvedText(double expected_s, const PushPlan& plan, const PushPlannerOptions& options) {
+std::string solvedText(const PlanResult& result, const PushPlannerOptions& options) {
+  const PushPlan& plan = result.plan;
   std::string text = std::to_string(plan.pushes.size()) + " pushes over " +
-                     rounded(plan.lengthM(), 1) + " m, about " + rounded(expected_s, 0) + " s";
+                     rounded(plan.lengthM(), 1) + " m, about " + rounded(result.expected_s, 0) +
+                     " s";
   if (plan.max_collision_probability) {
     text += ", collision probability " + rounded(plan.collision_probability, 3);
     if (*plan.max_collision_probability > options.risk.max_collision_probability) {
@@ -49,14 +45,17 @@ std::string solvedText(double expected_s, const PushPlan& plan, const PushPlanne
     text +=
         "; safe only for zeta " + rounded(plan.zeta, 1) + " instead of " + rounded(options.zeta, 1);
   }
+  if (result.dead_end > 0) {
+    text += "; push " + std::to_string(result.dead_end) +
+            " may leave the object where no case can be applied";
+  }
   return text;
 }
 
 /// How one search ended, whichever planner made it.
 struct Outcome {
   PlanSearch::End end = PlanSearch::End::kExhausted;
-  PushPlan plan;
-  double expected_s = 0.0;
+  PlanSearch::Solution solution;
   int nodes = 0;
   std::string approach_problem;
 };
@@ -89,7 +88,9 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
     ChainPlan made = planChain(problem, checker, safety, clock);
     result->nodes += made.nodes;
     result->bound = made.bound;
-    return {made.end, std::move(made.plan), made.expected_s, made.nodes,
+    return {made.end,
+            {std::move(made.plan), made.expected_s, 0},
+            made.nodes,
             std::move(made.approach_problem)};
   }
   outcome.end = PlanSearch::End::kStopped;
@@ -104,8 +105,7 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
     outcome.nodes = search.rrt().tree().size();
     outcome.approach_problem = search.approachProblem();
     if (outcome.end == PlanSearch::End::kFound) {
-      outcome.plan = search.plan();
-      outcome.expected_s = search.expectedS();
+      outcome.solution = search.solution();
     }
     const bool is_over = outcome.end != PlanSearch::End::kExhausted || !search.hasRejected();
     if (is_over) {
@@ -125,10 +125,10 @@ bool searchesAgain(const PushPlannerOptions& options) {
          options.planner == PlannerKind::kExpRrt && options.similarity == Similarity::kMetric;
 }
 
-/// Is it made with as much safety, and quicker?
+/// Is it as safe, and quicker?
 bool isBetter(const PlanResult& a, const PlanResult& b) {
   return a.status == PlanStatus::kSolved && a.expected_s < b.expected_s &&
-         a.plan.zeta >= b.plan.zeta &&
+         a.plan.zeta >= b.plan.zeta && (a.dead_end == 0 || b.dead_end > 0) &&
          a.plan.max_collision_probability.value_or(1.0) <=
              b.plan.max_collision_probability.value_or(1.0);
 }
@@ -214,10 +214,11 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
     clock.addNodes(outcome.nodes);
     if (outcome.end == PlanSearch::End::kFound) {
       result.status = PlanStatus::kSolved;
-      result.plan = outcome.plan;
+      result.plan = outcome.solution.plan;
       compoundPushes(&result.plan);
-      result.explanation = solvedText(outcome.expected_s, result.plan, options);
-      result.expected_s = outcome.expected_s;
+      result.expected_s = outcome.solution.expected_s;
+      result.dead_end = outcome.solution.dead_end;
+      result.explanation = solvedText(result, options);
       return result;
     }
     // OMPL's planners stop a little earlier, to free their trees; a lesser level has no time left.
@@ -263,69 +264,6 @@ void PushPlanner::Data::improve(const PlanRequest& request, const std::vector<co
   if (isBetter(other, *result)) *result = std::move(other);
   result->nodes = nodes;
   result->collision_checks = collision_checks;
-}
-
-// Chains the plan's pushes from its object's pose and tells which of them can be applied.
-void PushPlanner::Data::chain(const std::vector<Case>& cases, PushChecker* push_checker,
-                              Continuation* rest) const {
-  const double step_m = kStepPerCell * push_checker->collisions().columns().resolution_m;
-  PushPlan& plan = rest->plan;
-  const double object_radius_m = objects.at(plan.object.model).radius_m;
-  Pose2 pose = plan.object.map_T_object;
-  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
-    PlannedPush& push = plan.pushes[i];
-    const std::string name =
-        "push " + std::to_string(i + 1) + " (case " + std::to_string(push.case_id) + ")";
-    const Case* found = findCase(cases, push.case_id);
-    if (found == nullptr) {
-      rest->explanation = name + ": the case no longer exists";
-      return;
-    }
-    if (rest->explanation.empty()) {
-      const auto prepared =
-          prepareCases({*found}, plan.zeta, step_m, object_radius_m, robot.radius_m);
-      const PushConflict conflict = push_checker->conflict(prepared.front(), pose);
-      if (conflict == PushConflict::kNone) {
-        ++rest->applicable;
-      } else {
-        rest->explanation = name + ": " + toString(conflict);
-      }
-    }
-    push.map_T_start = pose;
-    push.map_outcome = transform(pose, found->start_outcome);
-    pose = push.map_outcome.mean;
-  }
-  rest->chained = true;
-  if (rest->explanation.empty() && plan.max_collision_probability) {
-    assessPlan(cases, {step_m, object_radius_m, robot.radius_m}, options.risk, push_checker, &plan);
-    rest->explanation = riskExplanation(plan);
-    rest->applicable = rest->explanation.empty() ? rest->applicable : 0;
-  }
-  if (rest->explanation.empty() && !plan.tolerance.isMet(plan.map_T_goal, pose)) {
-    rest->explanation = "the rest of the plan now ends at " + describe(pose) + ", " +
-                        rounded(distance(pose, plan.map_T_goal), 2) + " m from the goal";
-  }
-}
-
-PushPlanner::Continuation PushPlanner::continuePlan(
-    const PushPlan& rest, const Pose2& map_T_object, const std::vector<Case>& cases,
-    const std::vector<PlacedObject>& obstacles) const {
-  Continuation result;
-  std::vector<PlacedObject> all = obstacles;
-  all.push_back({rest.object.id, rest.object.model, map_T_object});
-  result.explanation = checkObstacles(all, data_->objects);
-  if (!result.explanation.empty()) {
-    return result;
-  }
-  PushChecker checker =
-      data_->pushChecker(rest.object.model, placeObstacles(obstacles, data_->objects));
-  checker.tolerateStart(map_T_object);
-  result.plan = rest;
-  result.plan.object.map_T_object = map_T_object;
-  data_->chain(cases, &checker, &result);
-  result.valid = result.explanation.empty();
-  compoundPushes(&result.plan);
-  return result;
 }
 
 RobotPath PushPlanner::approachPath(const PlacedObject& object,

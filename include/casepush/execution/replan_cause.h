@@ -10,6 +10,7 @@ enum class ReplanCause {
   kLeftTube,            ///< The push was broken off: the object left the course that the case says.
   kRestMissesGoal,      ///< The rest, begun at the observed pose, would end too far from the goal.
   kRestCollides,        ///< It would hit something, or uses a case that is gone.
+  kDeadEndAhead,        ///< The next push may leave the object where no case can be applied.
   kEndedBesideGoal,     ///< All pushes of the plan are made, and the object is not at the goal.
   kApproachFailed,      ///< The robot did not get to where the next push starts.
   kPushFailed,          ///< The push did not end well: object lost, no rest, robot stuck.
@@ -17,9 +18,10 @@ enum class ReplanCause {
   kObstacleStuck,       ///< Another object could not be pushed out of the way.
 };
 inline constexpr ReplanCause kReplanCauses[] = {
-    ReplanCause::kPredictionRejected, ReplanCause::kLeftTube,        ReplanCause::kRestMissesGoal,
-    ReplanCause::kRestCollides,       ReplanCause::kEndedBesideGoal, ReplanCause::kApproachFailed,
-    ReplanCause::kPushFailed,         ReplanCause::kObjectMoved,     ReplanCause::kObstacleStuck,
+    ReplanCause::kPredictionRejected, ReplanCause::kLeftTube,     ReplanCause::kRestMissesGoal,
+    ReplanCause::kRestCollides,       ReplanCause::kDeadEndAhead, ReplanCause::kEndedBesideGoal,
+    ReplanCause::kApproachFailed,     ReplanCause::kPushFailed,   ReplanCause::kObjectMoved,
+    ReplanCause::kObstacleStuck,
 };
 
 /// As in JSON: "prediction_rejected", "left_tube", ...

@@ -107,6 +107,8 @@ class PushPlanner {
     bool valid = false;    ///< Every push can be applied, and the last one ends in the goal.
     bool chained = false;  ///< All cases are known, so that `plan` tells where the rest leads.
     int applicable = 0;    ///< Pushes from the first one on that can be applied: at most all.
+    /// The first push can be applied, and may leave the object where no case can be.
+    bool may_get_stuck = false;
     std::string explanation;
     PushPlan plan;  ///< The re-anchored rest.
   };

@@ -53,6 +53,14 @@ TEST(JudgeRest, strictRuleGivesUpEveryMiss) {
   EXPECT_FALSE(judgeRest(restOf(12, 0.5), options).goes_on);
 }
 
+TEST(JudgeRest, givesUpWhatMayGetTheObjectStuck) {
+  PushPlanner::Continuation rest = restOf(3, 0.0);
+  rest.may_get_stuck = true;
+  const RestVerdict verdict = judgeRest(rest, RestOptions());
+  EXPECT_FALSE(verdict.goes_on);
+  EXPECT_EQ(verdict.cause, ReplanCause::kDeadEndAhead);
+}
+
 TEST(JudgeRest, caresForCollisionsOfTheNextPushesOnly) {
   RestOptions options;
   options.horizon = 3;

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+
+#include "casepush/model/push_plan.h"
+#include "casepush/planning/push_checker.h"
+#include "plan_search.h"
+
+namespace casepush {
+
+/// Tells pushes after which the object may stand where it cannot be pushed any more.
+///
+/// A plan needs its pushes to fit from their mean start poses only, and an object that came to rest
+/// a centimetre beside one may stand where no case can be applied: too near to a wall to be pushed
+/// from there, say. So each pose that a push may end in, the mean of its outcome and the sigma
+/// points twice the standard deviation away, must have a way on: a few cases that can be applied
+/// one after the other (safe at their own sigma points, and the robot gets to their starts), or
+/// fewer that lead to the goal.
+class DeadEndCheck {
+ public:
+  /// Cases by index, prepared when they are first asked for.
+  using GetCase = std::function<const PreparedCase&(int)>;
+
+  /// @param request  Whose goal counts. All must outlive it.
+  DeadEndCheck(const PlanRequest& request, int case_count, GetCase cases, PushChecker* checker,
+               ApproachVerifier* approaches);
+
+  /// @param push  That is begun with the object at rest at `map_T_start`.
+  bool mayEndInOne(const Pose2& map_T_start, const PreparedCase& push);
+
+ private:
+  /// @param pushes  So many more, from where `previous` left robot and object.
+  bool canGoOn(const Pose2& map_T_object, const PreparedCase& previous, int pushes);
+
+  const PlanRequest& request_;
+  int case_count_;
+  GetCase cases_;
+  PushChecker* checker_;
+  ApproachVerifier* approaches_;
+  int tests_left_ = 0;
+  int last_ = 0;  // The case that was found last: mostly it fits the next time, too.
+};
+
+}  // namespace casepush
