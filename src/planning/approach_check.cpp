@@ -22,6 +22,11 @@ bool isApart(const std::vector<Eigen::Vector2d>& ends, const Eigen::Vector2d& en
   });
 }
 
+// So many steps may be left out if nothing is in the way of that length.
+int stepsWithin(double free_m, double step_m) {
+  return free_m > 0.0 && step_m > 0.0 ? static_cast<int>(std::min(1e6, free_m / step_m)) : 0;
+}
+
 bool isSame(const Pose2& a, const Pose2& b) {
   return a.x() == b.x() && a.y() == b.y() && a.yaw() == b.yaw();
 }
@@ -44,16 +49,11 @@ ApproachCheck::~ApproachCheck() { library_.giveBack(std::move(flood_)); }
 
 ApproachCheck::Standing ApproachCheck::standing(const ObjectClearance& clearance,
                                                 const Pose2& map_T_object) {
-  return {&clearance, map_T_object, std::cos(map_T_object.yaw()), std::sin(map_T_object.yaw())};
+  return {&clearance, PushStart(map_T_object), map_T_object.position()};
 }
 
-float ApproachCheck::Standing::at(const Eigen::Vector2d& point_m) const {
-  const Eigen::Vector2d away = point_m - map_T_object.position();
-  const double reach_m = clearance->reach();
-  if (std::abs(away.x()) > reach_m || std::abs(away.y()) > reach_m) {
-    return std::numeric_limits<float>::infinity();
-  }
-  return clearance->at({cosine * away.x() + sine * away.y(), cosine * away.y() - sine * away.x()});
+void ApproachCheck::standAt(const PlacedObject& object) {
+  object_ = standing(library_.clearance(object.model), object.map_T_object);
 }
 
 // The library keeps them by content, which takes long to compare.
@@ -90,19 +90,20 @@ bool ApproachCheck::canPass(int cell) const {
 
 bool ApproachCheck::isFreeLine(const Pose2& from, const Pose2& to) const {
   constexpr double kStep_m = 0.01;
-  const int steps = std::max(1, static_cast<int>(std::ceil(distance(from, to) / kStep_m)));
+  const double length_m = distance(from, to);
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kStep_m)));
+  const double step_m = length_m / steps;
   const auto half_diagonal_m = static_cast<float>(grid_.resolution() * M_SQRT1_2);
   const Eigen::Vector2d along = (to.position() - from.position()) / steps;
-  int free_cell = -1;
   for (int i = 0; i <= steps; ++i) {
-    const int cell = grid_.cell(from.position() + i * along);
+    const Eigen::Vector2d point = from.position() + i * along;
+    const ClearanceGrid::Place at = grid_.locate(point);
     // Free whichever way the robot faces. The object itself was looked at on the open floor.
-    if (cell >= 0 && cell == free_cell) continue;
-    if (cell >= 0 && clearanceAround(cell, half_diagonal_m) >= half_diagonal_m) {
-      free_cell = cell;
-      continue;
-    }
-    if (checker_.collides(library_.docking(), between(from, to, static_cast<double>(i) / steps))) {
+    const float clear_m = at.cell >= 0 ? clearanceAround(at.cell, half_diagonal_m) : -1.0F;
+    if (clear_m >= half_diagonal_m) {
+      i += stepsWithin(clear_m - half_diagonal_m - (point - at.centre_m).norm(), step_m);
+    } else if (checker_.collides(library_.docking(),
+                                 between(from, to, static_cast<double>(i) / steps))) {
       return false;
     }
   }
@@ -110,24 +111,35 @@ bool ApproachCheck::isFreeLine(const Pose2& from, const Pose2& to) const {
 }
 
 bool ApproachCheck::canTravelAt(const Eigen::Vector2d& point) const {
-  const int cell = grid_.cell(point);
-  if (cell < 0) return false;
-  const Eigen::Vector2d centre = grid_.centre(cell);
+  const ClearanceGrid::Place at = grid_.locate(point);
+  if (at.cell < 0) return false;
   const auto needed_m =
-      static_cast<float>(std::max(library_.minClearance(), (centre - point).norm()));
-  return clearanceAround(cell, needed_m) >= needed_m && object_->at(centre) >= needed_m;
+      static_cast<float>(std::max(library_.minClearance(), (at.centre_m - point).norm()));
+  return clearanceAround(at.cell, needed_m) >= needed_m && object_->at(at.centre_m) >= needed_m;
 }
 
-// From cell to neighbouring cell.
 bool ApproachCheck::canGoStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil((to - from).norm() / grid_.resolution())));
+  return isClearLine(from, to, &*object_);
+}
+
+// From cell to neighbouring cell, but for those that are clear because one before them is by far.
+// Without `object` the line keeps away from it.
+bool ApproachCheck::isClearLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                const Standing* object) const {
+  const double length_m = (to - from).norm();
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / grid_.resolution())));
+  const double step_m = length_m / steps;
   const Eigen::Vector2d along = (to - from) / steps;
-  int last = -1;
+  const auto least_m = static_cast<float>(library_.minClearance());
+  const double lost_m = least_m + grid_.resolution() * M_SQRT1_2 + ObjectClearance::kRounding_m;
   for (int i = 0; i <= steps; ++i) {
-    const int cell = grid_.cell(from + i * along);
-    if (cell < 0 || (cell != last && !canPass(cell))) return false;
-    last = cell;
+    const Eigen::Vector2d point = from + i * along;
+    const ClearanceGrid::Place at = grid_.locate(point);
+    if (at.cell < 0) return false;
+    float clear_m = clearanceAround(at.cell, least_m);
+    if (object != nullptr) clear_m = std::min(clear_m, object->at(at.centre_m));
+    if (clear_m < least_m) return false;
+    i += stepsWithin(clear_m - lost_m - (point - at.centre_m).norm(), step_m);
   }
   return true;
 }
@@ -136,44 +148,53 @@ bool ApproachCheck::canGoStraight(const Eigen::Vector2d& from, const Eigen::Vect
 bool ApproachCheck::canGoAround(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                 double turn_rad) const {
   constexpr double kChord_rad = 0.3;
-  const Eigen::Vector2d centre = object_->map_T_object.position();
+  const Eigen::Vector2d& centre = object_->position_m;
   const Eigen::Vector2d away = from - centre;
   const double begin_rad = std::atan2(away.y(), away.x());
   const double beside_m =
       object_->clearance->beside() + library_.minClearance() + grid_.resolution();
   const double radius_m = std::max(away.norm(), beside_m / std::cos(kChord_rad / 2.0));
+  const auto onArc = [&](double angle_rad) -> Eigen::Vector2d {
+    return centre + radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  };
+  Eigen::Vector2d last = onArc(begin_rad);
+  if (!canGoStraight(from, last)) return false;
   const int chords = std::max(1, static_cast<int>(std::ceil(std::abs(turn_rad) / kChord_rad)));
-  Eigen::Vector2d last = from;
-  for (int i = 0; i <= chords; ++i) {
-    const double angle_rad = begin_rad + turn_rad * i / chords;
-    const Eigen::Vector2d next =
-        centre + radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-    if (!canGoStraight(last, next)) return false;
+  for (int i = 1; i <= chords; ++i) {
+    const Eigen::Vector2d next = onArc(begin_rad + turn_rad * i / chords);
+    if (!isClearLine(last, next, nullptr)) return false;
     last = next;
   }
   return canGoStraight(last, to);
 }
 
 // Mostly a simple way will do, and is found much faster than by looking at cell after cell.
-bool ApproachCheck::canGoPlainly(const Ends& from, const Ends& to) const {
-  if (from.empty() || to.empty()) return false;
-  if (canGoStraight(from.front(), to.front())) return true;
-  const Eigen::Vector2d centre = object_->map_T_object.position();
-  const Eigen::Vector2d a = from.front() - centre;
-  const Eigen::Vector2d b = to.front() - centre;
+bool ApproachCheck::canGoPlainly(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+  if (canGoStraight(from, to)) return true;
+  const Eigen::Vector2d a = from - object_->position_m;
+  const Eigen::Vector2d b = to - object_->position_m;
   const double turn_rad = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
   const double other_rad = turn_rad > 0.0 ? turn_rad - 2.0 * M_PI : turn_rad + 2.0 * M_PI;
-  return canGoAround(from.front(), to.front(), turn_rad) ||
-         canGoAround(from.front(), to.front(), other_rad);
+  return canGoAround(from, to, turn_rad) || canGoAround(from, to, other_rad);
+}
+
+bool ApproachCheck::canGo(Ends* from, Ends* to, int most_cells) {
+  find(1, to);
+  if (to->found.empty()) return false;
+  find(1, from);
+  if (from->found.empty()) return false;
+  if (canGoPlainly(from->found.front(), to->found.front())) return true;
+  find(kEnoughEnds, from);
+  find(kEnoughEnds, to);
+  return connects(*from, *to, most_cells);
 }
 
 // From both ends at once, each best first, until they meet or one of them has nothing left: the
 // smaller of two separate places decides soon.
 bool ApproachCheck::connects(const Ends& from, const Ends& to, int most_cells) {
-  if (from.empty() || to.empty()) return false;
   ApproachLibrary::Flood& flood = *flood_;
-  Front ahead{++flood.round, flood.round + 1, to.front(), flood.ahead};
-  Front back{++flood.round, flood.round - 1, from.front(), flood.back};
+  Front ahead{++flood.round, flood.round + 1, to.found.front(), flood.ahead};
+  Front back{++flood.round, flood.round - 1, from.found.front(), flood.back};
   bool met = begin(from, ahead);
   met = begin(to, back) || met;
   for (int looked = 0; !met && looked < most_cells; ++looked) {
@@ -187,7 +208,7 @@ bool ApproachCheck::connects(const Ends& from, const Ends& to, int most_cells) {
 bool ApproachCheck::begin(const Ends& ends, Front& front) {
   front.open.clear();
   bool met = false;
-  for (const Eigen::Vector2d& end : ends) met = visit(grid_.cell(end), front) || met;
+  for (const Eigen::Vector2d& end : ends.found) met = visit(grid_.cell(end), front) || met;
   return met;
 }
 
@@ -218,77 +239,71 @@ bool ApproachCheck::visit(int cell, Front& front) {
   return false;
 }
 
-ApproachCheck::Ends ApproachCheck::freeEnds(const Pose2& map_T_object, const Pose2& docked,
-                                            const std::vector<Pose2>& ends) const {
-  const Pose2 from = map_T_object * docked;
-  Ends found;
-  int lines = 0;
-  const PushStart object(map_T_object);
-  for (const Pose2& object_T_end : ends) {
+void ApproachCheck::find(std::size_t wanted, Ends* ends) const {
+  if (ends->ways == nullptr) return;
+  const PushStart& object = object_->map_T_object;
+  for (; ends->looked < ends->ways->size(); ++ends->looked) {
+    if (ends->found.size() >= wanted || ends->lines >= kMostLines) return;
+    const Pose2& object_T_end = (*ends->ways)[ends->looked];
     const Eigen::Vector2d end = object.positionOf(object_T_end);
-    if (!isApart(found, end) || !canTravelAt(end)) continue;
-    if (isFreeLine(from, object * object_T_end)) found.push_back(end);
-    if (++lines >= kMostLines || found.size() >= kEnoughEnds) break;
+    if (!isApart(ends->found, end) || !canTravelAt(end)) continue;
+    ++ends->lines;
+    if (isFreeLine(object * ends->docked, object * object_T_end)) ends->found.push_back(end);
   }
-  return found;
 }
 
 bool ApproachCheck::canFollow(const PlacedObject& object, const PreparedCase& previous,
                               const PreparedCase& next) {
-  const Pose2& map_T_object = object.map_T_object;
+  standAt(object);
+  const PushStart& start = object_->map_T_object;
   if (isDirect(object.model, previous, next) &&
-      isFreeLine(map_T_object * previous.outcome_T_robot, map_T_object * next.robot_begin)) {
+      isFreeLine(start * previous.outcome_T_robot, start * next.robot_begin)) {
     return true;
   }
-  object_ = standing(library_.clearance(object.model), map_T_object);
-  const Ends to =
-      freeEnds(map_T_object, next.robot_begin, waysOf(object.model, next).object_T_predock);
-  if (to.empty()) return false;
-  const Ends& from = waysOut(object, previous);
-  return canGoPlainly(from, to) || connects(from, to, kNearby);
+  Ends to{next.robot_begin, &waysOf(object.model, next).object_T_predock, 0, 0, {}};
+  return canGo(&waysOut(object, previous), &to, kNearby);
 }
 
 bool ApproachCheck::canReach(const PlacedObject& object, const Pose2& map_T_robot,
                              const PreparedCase& next) {
-  object_ = standing(library_.clearance(object.model), object.map_T_object);
-  const Ends to =
-      freeEnds(object.map_T_object, next.robot_begin, waysOf(object.model, next).object_T_predock);
-  if (to.empty()) return false;
-  const Ends& from = waysFrom(object, map_T_robot);
-  return canGoPlainly(from, to) || connects(from, to, grid_.size());
+  standAt(object);
+  Ends to{next.robot_begin, &waysOf(object.model, next).object_T_predock, 0, 0, {}};
+  find(1, &to);
+  return !to.found.empty() && canGo(&waysFrom(object, map_T_robot), &to, grid_.size());
 }
 
 // Several pushes are tried after one another.
-const ApproachCheck::Ends& ApproachCheck::waysOut(const PlacedObject& object,
-                                                  const PreparedCase& previous) {
+ApproachCheck::Ends& ApproachCheck::waysOut(const PlacedObject& object,
+                                            const PreparedCase& previous) {
   const Pose2& pose = object.map_T_object;
   if (left_ && left_->second == &previous && isSame(left_->first, pose)) return left_ends_;
   left_.emplace(pose, &previous);
-  left_ends_ =
-      freeEnds(pose, previous.outcome_T_robot, waysOf(object.model, previous).object_T_undocked);
+  left_ends_ = {
+      previous.outcome_T_robot, &waysOf(object.model, previous).object_T_undocked, 0, 0, {}};
   return left_ends_;
 }
 
 // Where the robot gets straight from where it stands, e.g. at the object's side.
-const ApproachCheck::Ends& ApproachCheck::waysFrom(const PlacedObject& object,
-                                                   const Pose2& map_T_robot) {
+ApproachCheck::Ends& ApproachCheck::waysFrom(const PlacedObject& object, const Pose2& map_T_robot) {
   if (begun_ && isSame(begun_->first, map_T_robot) && isSame(begun_->second, object.map_T_object)) {
     return begun_ends_;
   }
   begun_.emplace(map_T_robot, object.map_T_object);
-  begun_ends_.clear();
+  begun_ends_ = {};
+  std::vector<Eigen::Vector2d>& found = begun_ends_.found;
   if (canTravelAt(map_T_robot.position())) {
-    begun_ends_.push_back(map_T_robot.position());
+    found.push_back(map_T_robot.position());
     return begun_ends_;
   }
   CollisionChecker checker = checker_;
   std::vector<PlacedSolid> all = checker_.obstacles();
   all.push_back({library_.solid(object.model), object.map_T_object});
   checker.setObstacles(std::move(all));
-  library_.waysOut(checker, map_T_robot, [this](const Pose2& end) {
-    const bool is_new = isApart(begun_ends_, end.position());
-    if (is_new && canTravelAt(end.position())) begun_ends_.push_back(end.position());
-    return begun_ends_.size() < kEnoughEnds;
+  library_.waysOut(checker, map_T_robot, [&](const Pose2& end) {
+    if (isApart(found, end.position()) && canTravelAt(end.position())) {
+      found.push_back(end.position());
+    }
+    return found.size() < kEnoughEnds;
   });
   return begun_ends_;
 }

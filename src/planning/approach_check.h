@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "approach_library.h"
+#include "push_start.h"
 
 namespace casepush {
 
@@ -32,15 +35,29 @@ class ApproachCheck {
  private:
   struct Standing {
     const ObjectClearance* clearance;
-    Pose2 map_T_object;
-    double cosine;
-    double sine;
+    PushStart map_T_object;
+    Eigen::Vector2d position_m;
 
-    float at(const Eigen::Vector2d& point_m) const;
+    float at(const Eigen::Vector2d& point_m) const {
+      const Eigen::Vector2d away = point_m - position_m;
+      const double reach_m = clearance->reach();
+      if (std::abs(away.x()) > reach_m || std::abs(away.y()) > reach_m) {
+        return std::numeric_limits<float>::infinity();
+      }
+      return clearance->at(map_T_object.turnedBack(away));
+    }
   };
 
-  using Ends = std::vector<Eigen::Vector2d>;
   using Ways = ApproachLibrary::Ways;
+
+  /// Where straight ways from a docked robot end: looked for only as far as somebody asks.
+  struct Ends {
+    Pose2 docked;  ///< In the object's frame, as `ways`.
+    const std::vector<Pose2>* ways = nullptr;
+    std::size_t looked = 0;
+    int lines = 0;
+    std::vector<Eigen::Vector2d> found;
+  };
 
   /// Cells reached from one side.
   struct Front {
@@ -50,6 +67,7 @@ class ApproachCheck {
     std::vector<std::pair<double, int>>& open;
   };
 
+  void standAt(const PlacedObject& object);
   static Standing standing(const ObjectClearance& clearance, const Pose2& map_T_object);
   const Ways& waysOf(const std::string& model, const PreparedCase& push_case);
   bool isDirect(const std::string& model, const PreparedCase& previous, const PreparedCase& next);
@@ -59,16 +77,18 @@ class ApproachCheck {
   bool isFreeLine(const Pose2& from, const Pose2& to) const;
   bool canTravelAt(const Eigen::Vector2d& point) const;
   bool canGoStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  bool isClearLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                   const Standing* object) const;
   bool canGoAround(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double turn_rad) const;
-  bool canGoPlainly(const Ends& from, const Ends& to) const;
+  bool canGoPlainly(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  bool canGo(Ends* from, Ends* to, int most_cells);
   bool connects(const Ends& from, const Ends& to, int most_cells);
   bool begin(const Ends& ends, Front& front);
   bool advance(Front& front);
   bool visit(int cell, Front& front);
-  Ends freeEnds(const Pose2& map_T_object, const Pose2& docked,
-                const std::vector<Pose2>& ends) const;
-  const Ends& waysFrom(const PlacedObject& object, const Pose2& map_T_robot);
-  const Ends& waysOut(const PlacedObject& object, const PreparedCase& previous);
+  void find(std::size_t wanted, Ends* ends) const;
+  Ends& waysFrom(const PlacedObject& object, const Pose2& map_T_robot);
+  Ends& waysOut(const PlacedObject& object, const PreparedCase& previous);
 
   ApproachLibrary& library_;
   const ClearanceGrid& grid_;

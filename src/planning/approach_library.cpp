@@ -11,8 +11,6 @@
 namespace casepush {
 namespace {
 
-constexpr double kNode_m = 0.02;      // Spacing of a table's nodes.
-constexpr double kRange_m = 0.3;      // Clearance is exact up to this.
 constexpr double kOpenHalf_m = 5.0;   // Of the square without anything else.
 constexpr double kWayStep_m = 0.025;  // Between ends of a straight way.
 constexpr double kLongest_m = 1.2;    // Of a straight way in or out.
@@ -76,13 +74,6 @@ ObjectClearance::ObjectClearance(const Solid& object, const std::vector<TravelDi
   }
   // Nowhere is the clearance less than at the next node, minus the way there.
   for (float& value : clearance_m_) value -= static_cast<float>(kNode_m * M_SQRT1_2);
-}
-
-float ObjectClearance::at(const Eigen::Vector2d& object_point_m) const {
-  const int x = static_cast<int>(std::lround(object_point_m.x() / kNode_m)) + side_ / 2;
-  const int y = static_cast<int>(std::lround(object_point_m.y() / kNode_m)) + side_ / 2;
-  if (x < 0 || y < 0 || x >= side_ || y >= side_) return static_cast<float>(kRange_m);
-  return clearance_m_[static_cast<std::size_t>(y) * side_ + x];
 }
 
 ApproachLibrary::ApproachLibrary(const CollisionChecker& checker, const RobotModel& robot,

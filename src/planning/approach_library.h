@@ -25,9 +25,20 @@ class ObjectClearance {
   double reach() const { return reach_m_; }
   /// Where the robot is beside the object whichever way that is turned [m].
   double beside() const { return beside_m_; }
-  float at(const Eigen::Vector2d& object_point_m) const;
+  /// Falls by no more from one point to another than they are apart and kRounding_m.
+  float at(const Eigen::Vector2d& object_point_m) const {
+    // What is positive is rounded down by conversion.
+    const double x = object_point_m.x() / kNode_m + 0.5 + side_ / 2;
+    const double y = object_point_m.y() / kNode_m + 0.5 + side_ / 2;
+    if (!(x >= 0.0 && y >= 0.0 && x < side_ && y < side_)) return static_cast<float>(kRange_m);
+    return clearance_m_[static_cast<std::size_t>(y) * side_ + static_cast<std::size_t>(x)];
+  }
+  static constexpr double kRounding_m = 0.03;
 
  private:
+  static constexpr double kNode_m = 0.02;  // Spacing of the table's nodes.
+  static constexpr double kRange_m = 0.3;  // Clearance is exact up to this.
+
   double reach_m_;
   double beside_m_;
   int side_;

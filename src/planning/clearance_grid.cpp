@@ -171,12 +171,6 @@ void ClearanceGrid::add(const PlacedSolid& placed, const std::vector<TravelDisc>
   }
 }
 
-int ClearanceGrid::cell(const Eigen::Vector2d& point_m) const {
-  const Eigen::Vector2d at = (point_m - origin_m_) / resolution_m_;
-  if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < width_ && at.y() < height_)) return -1;
-  return static_cast<int>(at.y()) * width_ + static_cast<int>(at.x());
-}
-
 Eigen::Vector2d ClearanceGrid::centre(int cell) const {
   return origin_m_ + resolution_m_ * Eigen::Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
 }

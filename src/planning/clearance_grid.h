@@ -55,8 +55,23 @@ class ClearanceGrid {
   float clearance(int cell) const { return clearance_m_[cell]; }
 
   /// Index of the cell that holds the point; -1 outside.
-  int cell(const Eigen::Vector2d& point_m) const;
+  int cell(const Eigen::Vector2d& point_m) const { return locate(point_m).cell; }
   Eigen::Vector2d centre(int cell) const;
+
+  /// A cell and its centre.
+  struct Place {
+    int cell;  ///< -1 outside.
+    Eigen::Vector2d centre_m;
+  };
+  Place locate(const Eigen::Vector2d& point_m) const {
+    const Eigen::Vector2d at = (point_m - origin_m_) / resolution_m_;
+    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < width_ && at.y() < height_)) {
+      return {-1, {0.0, 0.0}};
+    }
+    const int x = static_cast<int>(at.x());
+    const int y = static_cast<int>(at.y());
+    return {y * width_ + x, origin_m_ + resolution_m_ * Eigen::Vector2d(x + 0.5, y + 0.5)};
+  }
 
   /// Smallest clearance of the cells that the straight line passes; -infinity if it leaves the
   /// grid.

@@ -54,8 +54,8 @@ double PushGoal::distanceGoal(const ob::State* state) const {
 void PushGoal::sampleGoal(ob::State* state) const { setState(map_T_goal_, state); }
 
 ExpRrt::ExpRrt(const ob::SpaceInformationPtr& space, PushChecker* checker,
-               std::shared_ptr<const CaseSet> cases, const GoalGuide* guide,
-               const Pose2& object_T_robot, CanApproach can_approach, const ExpRrtOptions& options)
+               std::shared_ptr<const CaseSet> cases, GoalGuide* guide, const Pose2& object_T_robot,
+               CanApproach can_approach, const ExpRrtOptions& options)
     : Planner(space, "ExpRrt"),
       checker_(checker),
       set_(std::move(cases)),
@@ -88,6 +88,7 @@ void ExpRrt::clear() {
   random_ = Random::stream(options_.seed, "exp_rrt");
   solutions_.clear();
   edges_ = {};
+  must_note_all_ = false;
   is_approached_.clear();
   best_cost_s_ = kInfinity;
   extension_count_ = 0;
@@ -139,6 +140,9 @@ ExpRrt::Growth ExpRrt::grow() {
   }
   ++extension_count_;
   work_ = 0;
+  if (must_note_all_ && options_.similarity == Similarity::kMetric) {
+    noteAllEdges();
+  }
   const Target target = sample();
   if (options_.similarity == Similarity::kMetric) {
     return target.is_goal ? growToGoal() : growToSample(target.pose);
@@ -257,7 +261,7 @@ void ExpRrt::reject(int node) {
   const auto gone = [this](int id) { return tree_.isRemoved(id); };
   solutions_.erase(std::remove_if(solutions_.begin(), solutions_.end(), gone), solutions_.end());
   best_cost_s_ = solutions_.empty() ? kInfinity : tree_.node(solutions_.front()).cost_s;
-  edges_ = {};  // Noted again when the search goes on.
+  must_note_all_ = true;
 }
 
 void ExpRrt::addSolutionPath(int node) {

@@ -87,7 +87,7 @@ class ExpRrt : public ompl::base::Planner {
   /// @param object_T_robot  Where the robot stands at the start.
   /// @param can_approach  Empty: it always can.
   ExpRrt(const ompl::base::SpaceInformationPtr& space, PushChecker* checker,
-         std::shared_ptr<const CaseSet> cases, const GoalGuide* guide, const Pose2& object_T_robot,
+         std::shared_ptr<const CaseSet> cases, GoalGuide* guide, const Pose2& object_T_robot,
          CanApproach can_approach, const ExpRrtOptions& options);
   ~ExpRrt() override;
 
@@ -157,7 +157,7 @@ class ExpRrt : public ompl::base::Planner {
   double pushCost(int node, int push) const;
   double chainCost(int node, const CaseChain& chain) const;
   double remaining(const Pose2& pose) const;
-  double expected(const Eigen::Vector2d& position_m, double yaw_rad) const;
+  double expected(const Eigen::Vector2d& position_m, double yaw_rad);
   bool isInGoal(const Pose2& pose) const;
   bool isHopeless(double cost_s, const Pose2& pose) const;
   void addSolutionPath(int node);
@@ -165,7 +165,7 @@ class ExpRrt : public ompl::base::Planner {
 
   PushChecker* checker_;
   std::shared_ptr<const CaseSet> set_;
-  const GoalGuide* guide_;
+  GoalGuide* guide_;
   Pose2 object_T_robot_;
   CanApproach can_approach_;
   ExpRrtOptions options_;
@@ -183,6 +183,7 @@ class ExpRrt : public ompl::base::Planner {
   std::vector<bool> is_approached_;  // nodes whose push the robot can get to
   // The best untried edge of each node that is open, and of some that closed meanwhile.
   std::priority_queue<Edge, std::vector<Edge>, std::greater<>> edges_;
+  bool must_note_all_ = false;                 // before the next one is taken
   std::vector<int> nearby_;                    // scratch
   std::vector<std::pair<double, int>> order_;  // scratch
   std::vector<std::pair<double, int>> keys_;   // scratch

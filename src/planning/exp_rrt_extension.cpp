@@ -42,7 +42,7 @@ bool ExpRrt::isInGoal(const Pose2& pose) const {
 }
 
 // What is left by the guide, in the metric of the tree.
-double ExpRrt::expected(const Eigen::Vector2d& position_m, double yaw_rad) const {
+double ExpRrt::expected(const Eigen::Vector2d& position_m, double yaw_rad) {
   const Pose2& goal = goal_->pose();
   const double way_m =
       guide_ != nullptr ? guide_->at(position_m) : (position_m - goal.position()).norm();
@@ -261,17 +261,16 @@ ExpRrt::Growth ExpRrt::extend(int node, int push, int* added) {
 }
 
 ExpRrt::Growth ExpRrt::addSolution(int node) {
-  const bool is_first = solutions_.empty();
+  // Improving weighs edges differently: all are noted again if it comes to that.
+  must_note_all_ = must_note_all_ || solutions_.empty();
   const auto cheaper = [this](int a, int b) { return tree_.node(a).cost_s < tree_.node(b).cost_s; };
   solutions_.insert(std::upper_bound(solutions_.begin(), solutions_.end(), node, cheaper), node);
   best_cost_s_ = tree_.node(solutions_.front()).cost_s;
-  if (is_first && options_.similarity == Similarity::kMetric) {
-    noteAllEdges();
-  }
   return Growth::kSolution;
 }
 
 void ExpRrt::noteAllEdges() {
+  must_note_all_ = false;
   edges_ = {};
   const std::vector<int> open = tree_.openIds();
   for (const int id : open) {

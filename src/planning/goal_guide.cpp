@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "casepush/world/shadow.h"
-#include "grid_flood.h"
 #include "origin_distance.h"
 
 namespace casepush {
@@ -13,11 +12,13 @@ namespace {
 constexpr double kCell_m = 0.2;
 constexpr double kBeyond_m = 3.0;    // It looks half as far again as the start is, and this.
 constexpr double kSpacious_m = 0.3;  // More clearance than this, around the object, is not better.
-// Halves of the lengths of a way through an open cell, in whole numbers: a step takes those of both
-// its cells.
+// Of a way through an open cell.
 constexpr double kHalfStraight = 12.0;
 constexpr double kHalfDiagonal = 17.0;
-constexpr int kLongestStep = static_cast<int>(2.0 * kHalfDiagonal * ObjectRoom::kTight);
+constexpr int kStraight = static_cast<int>(2.0 * kHalfStraight);
+constexpr int kDiagonal = static_cast<int>(2.0 * kHalfDiagonal);
+// The estimate may grow by one open step.
+constexpr int kLongestStep = static_cast<int>(kDiagonal * ObjectRoom::kTight) + kDiagonal;
 
 }  // namespace
 
@@ -97,6 +98,21 @@ std::vector<float> ObjectRoom::factors(const std::vector<PlacedSolid>& obstacles
   return result;
 }
 
+std::vector<HalfSteps> ObjectRoom::halfSteps(const std::vector<PlacedSolid>& obstacles) const {
+  const std::vector<float> factors = this->factors(obstacles);
+  const int stride = width_ + 2;
+  std::vector<HalfSteps> result(static_cast<std::size_t>(stride) * (height_ + 2));
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const float factor = factors[static_cast<std::size_t>(y) * width_ + x];
+      result[static_cast<std::size_t>(y + 1) * stride + x + 1] = {
+          static_cast<std::uint8_t>(kHalfStraight * factor + 0.5),
+          static_cast<std::uint8_t>(kHalfDiagonal * factor + 0.5)};
+    }
+  }
+  return result;
+}
+
 RoomLibrary::RoomLibrary(const CollisionChecker& map,
                          const std::map<std::string, ObjectModel>& objects)
     : columns_(map.mapColumns()), objects_(objects) {}
@@ -119,7 +135,7 @@ const ObjectRoom& RoomLibrary::get(const std::string& model) {
   return rooms_.try_emplace(model, *columns_, objects_.at(model).solid).first->second;
 }
 
-GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<float>& factors,
+GoalGuide::GoalGuide(const ObjectRoom& room, std::vector<HalfSteps> half_steps,
                      const Eigen::Vector2d& start_m, const Eigen::Vector2d& goal_m,
                      double tolerance_m)
     : goal_m_(goal_m),
@@ -127,33 +143,35 @@ GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<float>& factors,
       stride_(room.width() + 2),
       low_m_(room.centre(0)),
       last_(room.width() - 1.0, room.height() - 1.0),
-      cells_per_m_(1.0 / room.cell()) {
-  const std::size_t cells = static_cast<std::size_t>(stride_) * (room.height() + 2);
-  std::vector<Halves> halves(cells);  // with a rim
+      cells_per_m_(1.0 / room.cell()),
+      half_steps_(std::move(half_steps)),
+      flood_(static_cast<int>(half_steps_.size()), stride_, kLongestStep) {
   const int start = cell(start_m);
   const int goal = cell(goal_m);
-  for (int y = 0; y < room.height(); ++y) {
-    for (int x = 0; x < room.width(); ++x) {
-      const int at = (y + 1) * stride_ + x + 1;
-      float factor = factors[static_cast<std::size_t>(y) * room.width() + x];
-      if (at == start || at == goal) factor = std::max(factor, 1.0F);  // Nearly free, at least.
-      halves[at] = {static_cast<std::uint8_t>(kHalfStraight * factor + 0.5),
-                    static_cast<std::uint8_t>(kHalfDiagonal * factor + 0.5)};
-    }
+  for (const int end : {start, goal}) {  // Nearly free, at least.
+    if (half_steps_[end].straight == 0) half_steps_[end] = {kStraight / 2, kDiagonal / 2};
   }
-  reaches_start_ = spread(halves, start, {goal});
-  if (!reaches_start_) reaches_start_ = spread(halves, start, region(halves, tolerance_m));
+  start_x_ = start % stride_;
+  start_y_ = start / stride_;
+  reaches_start_ = reach(start, {goal}) || reach(start, region(tolerance_m));
 }
 
-// It may lie on both sides of something.
-std::vector<int> GoalGuide::region(const std::vector<Halves>& halves, double tolerance_m) const {
+// The length of an open way from there to the start.
+int GoalGuide::estimate(int cell) const {
+  const int across = std::abs(cell % stride_ - start_x_);
+  const int up = std::abs(cell / stride_ - start_y_);
+  return kStraight * std::max(across, up) + (kDiagonal - kStraight) * std::min(across, up);
+}
+
+// The goal region may lie on both sides of something.
+std::vector<int> GoalGuide::region(double tolerance_m) const {
   std::vector<int> region;
   for (int y = 0; y < room_.height(); ++y) {
     for (int x = 0; x < room_.width(); ++x) {
       const int at = (y + 1) * stride_ + x + 1;
       const double apart_m = (room_.centre(y * room_.width() + x) - goal_m_).norm();
       const bool is_near = apart_m <= tolerance_m + room_.cell() * M_SQRT1_2;
-      if (is_near && halves[at].straight > 0) region.push_back(at);
+      if (is_near && half_steps_[at].straight > 0) region.push_back(at);
     }
   }
   return region;
@@ -166,28 +184,51 @@ int GoalGuide::cell(const Eigen::Vector2d& point_m) const {
   return (y + 1) * stride_ + x + 1;
 }
 
-bool GoalGuide::spread(const std::vector<Halves>& halves, int start,
-                       const std::vector<int>& goals) {
-  const double unit_m = 0.5 * room_.cell() / kHalfStraight;
-  const auto more = static_cast<int>(kBeyond_m / unit_m);
-  GridFlood flood(static_cast<int>(halves.size()), stride_, kLongestStep);
-  for (const int goal : goals) flood.begin(goal);
-  int limit = GridFlood::kUnreached;
-  const int farthest = flood.spread(
-      [&halves](int from, int to, bool is_diagonal) {
-        if (halves[to].straight == 0) return 0;
-        return is_diagonal ? halves[from].diagonal + halves[to].diagonal
-                           : halves[from].straight + halves[to].straight;
-      },
-      [&limit, start, more](int at, int now) {
-        if (at == start) limit = now + now / 2 + more;
-        return now < limit;
-      });
-  way_m_.resize(halves.size());
-  for (std::size_t at = 0; at < halves.size(); ++at) {
-    way_m_[at] = static_cast<float>(unit_m * std::min(flood.distance()[at], farthest));
+bool GoalGuide::reach(int start, const std::vector<int>& goals) {
+  constexpr float kUnknown = -1.0F;
+  const double unit_m = room_.cell() / kStraight;
+  flood_ = GridFlood(static_cast<int>(half_steps_.size()), stride_, kLongestStep);
+  way_m_.assign(half_steps_.size(), kUnknown);
+  is_estimated_ = goals.size() == 1;
+  for (const int goal : goals) flood_.begin(goal, is_estimated_ ? estimate(goal) : 0);
+  settle(start);
+  const int way = flood_.distance()[start];
+  if (way == GridFlood::kUnreached) return false;
+  const int far = way + way / 2 + static_cast<int>(kBeyond_m / unit_m);
+  flood_.setLimit(far);
+  far_m_ = static_cast<float>(unit_m * far);
+  return true;
+}
+
+// Goes on until the way from a cell is known, or it is known to be far.
+void GoalGuide::settle(int cell) {
+  if (way_m_[cell] >= 0.0F) return;
+  if (half_steps_[cell].straight == 0) {
+    way_m_[cell] = far_m_;
+  } else if (is_estimated_) {
+    spread(cell, [this](int at) { return estimate(at); });
+  } else {
+    spread(cell, [](int) { return 0; });
   }
-  return limit != GridFlood::kUnreached;
+}
+
+template <typename Estimate>
+void GoalGuide::spread(int cell, const Estimate& estimate) {
+  const double unit_m = room_.cell() / kStraight;
+  flood_.spread(
+      [this](int from, int to, bool is_diagonal) {
+        const HalfSteps& there = half_steps_[to];
+        if (there.straight == 0) return 0;
+        const HalfSteps& here = half_steps_[from];
+        return is_diagonal ? here.diagonal + there.diagonal : here.straight + there.straight;
+      },
+      [this, cell, unit_m](int at, int now) {
+        way_m_[at] = static_cast<float>(unit_m * now);
+        return at != cell;
+      },
+      estimate);
+  if (way_m_[cell] >= 0.0F) return;
+  for (float& way_m : way_m_) way_m = way_m < 0.0F ? far_m_ : way_m;  // Nothing else is reached.
 }
 
 }  // namespace casepush

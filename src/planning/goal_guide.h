@@ -11,8 +11,16 @@
 #include "casepush/model/object_model.h"
 #include "casepush/world/collision_checker.h"
 #include "clearance_grid.h"
+#include "grid_flood.h"
 
 namespace casepush {
+
+/// Halves of the lengths of a way through a cell, in whole numbers: a step takes those of both its
+/// cells. 0 where there is no way.
+struct HalfSteps {
+  std::uint8_t straight = 0;
+  std::uint8_t diagonal = 0;
+};
 
 /// How much room a map leaves an object, in cells of about 20 cm. Made once for map and object.
 class ObjectRoom {
@@ -33,13 +41,14 @@ class ObjectRoom {
     return (point_m - origin_m_) / cell_m_;
   }
 
-  /// What a metre through each cell counts: 1 in the open, up to kTight where only some headings
-  /// fit, 0 where the object's origin certainly cannot be.
-  std::vector<float> factors(const std::vector<PlacedSolid>& obstacles) const;
+  /// Row by row, with a rim of one cell around the room. A metre counts up to kTight where only
+  /// some headings fit; nothing leads where the object's origin certainly cannot be.
+  std::vector<HalfSteps> halfSteps(const std::vector<PlacedSolid>& obstacles) const;
 
   static constexpr double kTight = 3.0;
 
  private:
+  std::vector<float> factors(const std::vector<PlacedSolid>& obstacles) const;
   float factor(double clearance_m) const;
   void look(const CollisionChecker::Columns& columns, const CellBox& box);
 
@@ -75,25 +84,32 @@ class RoomLibrary {
 
 /// Roughly how far an object has to go to its goal from anywhere, around walls and obstacles and
 /// rather through wide places than narrow ones. It guides the search and bounds nothing.
+///
+/// It is a search from the goal, towards the start first, that goes on only as far as somebody asks
+/// (RRA*, Silver 2005): the answers do not depend on what was asked before.
 class GoalGuide {
  public:
   /// Looks a little farther than from goal to start, not over the whole of a large map.
-  /// @param factors  Of the room with all obstacles.
-  GoalGuide(const ObjectRoom& room, const std::vector<float>& factors,
+  /// @param half_steps  Of the room with all obstacles.
+  GoalGuide(const ObjectRoom& room, std::vector<HalfSteps> half_steps,
             const Eigen::Vector2d& start_m, const Eigen::Vector2d& goal_m, double tolerance_m);
 
   /// False only if there is certainly no way of the object's origin from start to the
   /// goal region.
   bool reachesStart() const { return reaches_start_; }
 
-  double at(const Eigen::Vector2d& point_m) const {  ///< [m]
+  double at(const Eigen::Vector2d& point_m) {  ///< [m]
     // Bilinear between the centres of cells.
     const double fx = std::clamp((point_m.x() - low_m_.x()) * cells_per_m_, 0.0, last_.x());
     const double fy = std::clamp((point_m.y() - low_m_.y()) * cells_per_m_, 0.0, last_.y());
     const int x = static_cast<int>(fx);
     const int y = static_cast<int>(fy);
-    const float* const below = &way_m_[static_cast<std::size_t>(y + 1) * stride_ + x + 1];
+    const int cell = (y + 1) * stride_ + x + 1;
+    const float* const below = &way_m_[cell];
     const float* const above = below + stride_;
+    if (std::min(std::min(below[0], below[1]), std::min(above[0], above[1])) < 0.0F) {
+      for (const int corner : {cell, cell + 1, cell + stride_, cell + stride_ + 1}) settle(corner);
+    }
     const double tx = fx - x;
     const double ty = fy - y;
     const double way_m = (1.0 - ty) * ((1.0 - tx) * below[0] + tx * below[1]) +
@@ -102,15 +118,13 @@ class GoalGuide {
   }
 
  private:
-  /// Of the lengths of a way through a cell; 0 where there is none.
-  struct Halves {
-    std::uint8_t straight = 0;
-    std::uint8_t diagonal = 0;
-  };
-
   int cell(const Eigen::Vector2d& point_m) const;
-  std::vector<int> region(const std::vector<Halves>& halves, double tolerance_m) const;
-  bool spread(const std::vector<Halves>& halves, int start, const std::vector<int>& goals);
+  int estimate(int cell) const;
+  std::vector<int> region(double tolerance_m) const;
+  bool reach(int start, const std::vector<int>& goals);
+  void settle(int cell);
+  template <typename Estimate>
+  void spread(int cell, const Estimate& estimate);
 
   Eigen::Vector2d goal_m_;
   const ObjectRoom& room_;
@@ -118,8 +132,14 @@ class GoalGuide {
   Eigen::Vector2d low_m_;  // centre of the first cell
   Eigen::Vector2d last_;   // of the last cell, from there and in cells
   double cells_per_m_;
+  std::vector<HalfSteps> half_steps_;
+  GridFlood flood_;
+  int start_x_ = 0;  // Where the estimate leads.
+  int start_y_ = 0;
+  bool is_estimated_ = false;
   bool reaches_start_ = false;
-  std::vector<float> way_m_;  // from each cell to the goal
+  float far_m_ = 0.0F;        // What lies farther away is not told apart.
+  std::vector<float> way_m_;  // from each cell to the goal; negative: not yet known
 };
 
 }  // namespace casepush

@@ -8,13 +8,14 @@
 namespace casepush {
 
 /// Dijkstra's algorithm in whole numbers over the eight neighbours of a grid's cells, with a ring
-/// of buckets for a queue (Dial 1969).
+/// of buckets for a queue (Dial 1969). With an estimate of the way that is left it is A*: cells
+/// towards some place come first. It can be ended and gone on with.
 class GridFlood {
  public:
   static constexpr int kUnreached = std::numeric_limits<int>::max();
 
   /// @param stride  Cells from row to row; no way may lead over the grid's rim.
-  /// @param longest_step  No step costs more.
+  /// @param longest_step  No step costs more, the growth of the estimate included.
   GridFlood(int cells, int stride, int longest_step)
       : steps_{1, -1, stride, -stride, stride + 1, stride - 1, -stride + 1, -stride - 1},
         distance_(cells, kUnreached) {
@@ -23,33 +24,53 @@ class GridFlood {
     first_.assign(size, kNone);
   }
 
-  void begin(int cell) {
+  /// @param estimate  Of the cell; all cells that are begun with have the same.
+  void begin(int cell, int estimate = 0) {
     if (distance_[cell] == 0) return;
-    reach(cell, 0);
+    now_ = estimate;
+    reach(cell, 0, estimate);
   }
+
+  /// Nothing is reached from now on that lies as far or farther.
+  void setLimit(int distance) { limit_ = distance; }
 
   /// @param cost  Of a step to a cell from its neighbour, straight or diagonal, > 0; 0 if there is
   ///   no way.
-  /// @param goes_on  Asked for each cell with its distance once that is final.
-  /// @return  The distance where it ended; what is as far or farther may not be final.
-  template <typename Cost, typename GoesOn>
-  int spread(const Cost& cost, const GoesOn& goes_on) {
+  /// @param goes_on  Asked for each cell with its distance once that is final; where it says no,
+  ///   another call goes on.
+  /// @param estimate  Of a cell, >= 0; no step makes it smaller by more than the step costs. Always
+  ///   the same.
+  /// @return  The distance where it ended; without an estimate, what is as far or farther may not
+  ///   be final.
+  template <typename Cost, typename GoesOn, typename Estimate>
+  int spread(const Cost& cost, const GoesOn& goes_on, const Estimate& estimate) {
     const std::size_t mask = first_.size() - 1;
-    int now = 0;
-    for (; left_ > 0; ++now) {
-      for (int at = std::exchange(first_[now & mask], kNone); at != kNone; at = waiting_[at].next) {
-        const int cell = waiting_[at].cell;
-        --left_;
-        if (distance_[cell] != now) continue;
-        if (!goes_on(cell, now)) return now;
-        for (std::size_t i = 0; i < steps_.size(); ++i) {
-          const int next = cell + steps_[i];
-          const int step = cost(cell, next, i >= steps_.size() / 2);
-          if (step > 0 && now + step < distance_[next]) reach(next, now + step);
-        }
+    while (left_ > 0) {
+      int& first = first_[now_ & mask];
+      if (first == kNone) {
+        ++now_;
+        continue;
+      }
+      const Waiting waiting = waiting_[first];
+      const int distance = now_ - estimate(waiting.cell);
+      const bool is_final = distance_[waiting.cell] == distance;  // Or it was reached sooner.
+      if (is_final && !goes_on(waiting.cell, distance)) return distance;
+      first = waiting.next;
+      --left_;
+      if (!is_final) continue;
+      for (std::size_t i = 0; i < steps_.size(); ++i) {
+        const int next = waiting.cell + steps_[i];
+        const int step = cost(waiting.cell, next, i >= steps_.size() / 2);
+        if (step <= 0) continue;
+        const int reached = distance + step;
+        if (reached < distance_[next] && reached < limit_) reach(next, reached, estimate(next));
       }
     }
-    return now;
+    return now_;
+  }
+  template <typename Cost, typename GoesOn>
+  int spread(const Cost& cost, const GoesOn& goes_on) {
+    return spread(cost, goes_on, [](int) { return 0; });
   }
 
   /// Of each cell, where it is final; larger or kUnreached elsewhere.
@@ -64,8 +85,8 @@ class GridFlood {
     int next;  // in the same bucket
   };
 
-  void reach(int cell, int distance) {
-    int& first = first_[distance & (first_.size() - 1)];
+  void reach(int cell, int distance, int estimate) {
+    int& first = first_[(distance + estimate) & (first_.size() - 1)];
     distance_[cell] = distance;
     waiting_.push_back({cell, first});
     first = static_cast<int>(waiting_.size()) - 1;
@@ -77,6 +98,8 @@ class GridFlood {
   std::vector<Waiting> waiting_;  // and those that are done
   std::vector<int> first_;        // of each bucket, in waiting_
   int left_ = 0;
+  int now_ = 0;  // distance and estimate of the cells whose turn it is
+  int limit_ = kUnreached;
 };
 
 }  // namespace casepush

@@ -51,7 +51,7 @@ ob::ProblemDefinitionPtr makeDefinition(const ob::SpaceInformationPtr& space,
 
 ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& space,
                PushChecker* checker, std::shared_ptr<const CaseSet> cases, ChanceConstraint* chance,
-               const GoalGuide* guide, CanApproach can_approach) {
+               GoalGuide* guide, CanApproach can_approach) {
   const PushPlannerOptions& options = problem.options;
   ExpRrtOptions rrt;
   rrt.similarity = options.similarity;
@@ -79,6 +79,7 @@ std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const Pu
     cases.reserve(problem.cases.size());
     for (const Case* push_case : problem.cases) {
       if (clock.isOver()) return nullptr;
+      validateCase(*push_case, "case " + std::to_string(push_case->id));
       cases.push_back(
           prepareCase(*push_case, zeta, step_m, problem.object.radius_m, problem.robot.radius_m));
     }
@@ -144,13 +145,13 @@ void SearchClock::report(int nodes, double best_cost_s) const {
 
 PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
                        const SafetyLevel& safety, std::shared_ptr<const CaseSet> cases,
-                       const GoalGuide& guide, Approaches approaches)
+                       GoalGuide* guide, Approaches approaches)
     : problem_(problem),
       safety_(safety),
       chance_(problem, cases->cases, checker, safety),
       space_(makeSpace(checker)),
       definition_(makeDefinition(space_, problem.request)),
-      rrt_(makeRrt(problem, space_, checker, std::move(cases), chance_.constraint(), &guide,
+      rrt_(makeRrt(problem, space_, checker, std::move(cases), chance_.constraint(), guide,
                    approaches == Approaches::kSimple ? simpleApproach() : CanApproach())),
       checker_(checker),
       approaches_how_(approaches),

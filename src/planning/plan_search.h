@@ -86,7 +86,8 @@ class ApproachVerifier {
 };
 
 /// The request's cases, ready for a search with one spread of sigma points; nullptr if the clock
-/// ran out.
+/// ran out. What is kept is not looked at again.
+/// @throws InputError for a case that validateCase() refuses.
 std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const PushChecker& checker,
                                           double zeta, const SearchClock& clock);
 
@@ -128,7 +129,7 @@ class PlanSearch {
  public:
   /// All must outlive it.
   PlanSearch(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
-             std::shared_ptr<const CaseSet> cases, const GoalGuide& guide, Approaches approaches);
+             std::shared_ptr<const CaseSet> cases, GoalGuide* guide, Approaches approaches);
   ~PlanSearch();
 
   enum class End { kFound, kExhausted, kNodeLimit, kStopped, kCutOff };

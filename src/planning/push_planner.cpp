@@ -82,7 +82,7 @@ std::string unreachableText(const Outcome& outcome, int max_nodes) {
 }
 
 Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
-                   const GoalGuide& guide, const SearchClock& clock, PlanResult* result) {
+                   GoalGuide* guide, const SearchClock& clock, PlanResult* result) {
   Outcome outcome;
   if (problem.options.planner == PlannerKind::kLattice || isOmpl(problem.options.planner)) {
     ChainPlan made = planChain(problem, checker, safety, clock);
@@ -162,12 +162,6 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
                                               "\"; learn some first");
   } else {
     try {
-      for (const Case* push_case : own) {
-        if (clock.isOver()) {
-          break;
-        }
-        validateCase(*push_case, "case " + std::to_string(push_case->id));
-      }
       result = data_->searchShortOnesLast(request, own, clock);
       PlanRequest again = request;
       while (searchesAgain(data_->options) && result.status == PlanStatus::kSolved &&
@@ -190,7 +184,7 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
   const Footprints& own = footprints.at(request.object.model);
   const auto scene = scenes->get(request.object.model, request.obstacles, [&] {
     return Scene{own.sweeps->withObstaclesOf(checkerWith(obstacles)),
-                 rooms->get(request.object.model).factors(obstacles)};
+                 rooms->get(request.object.model).halfSteps(obstacles)};
   });
   PushChecker push_checker = pushChecker(request.object.model, scene->sweeps);
   if (const auto problem = checkStartAndGoal(request, push_checker.collisions(), *own.exact)) {
@@ -199,8 +193,8 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
   push_checker.tolerateStart(request.object.map_T_object);
   const SearchProblem problem = this->problem(request, cases, obstacles);
   PlanResult result;
-  const GoalGuide guide(problem.room, scene->room, request.object.map_T_object.position(),
-                        request.map_T_goal.position(), request.tolerance.position_m);
+  GoalGuide guide(problem.room, scene->room, request.object.map_T_object.position(),
+                  request.map_T_goal.position(), request.tolerance.position_m);
   if (!guide.reachesStart()) {
     result.status = PlanStatus::kUnreachable;
     Outcome cut_off;
@@ -209,7 +203,7 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
     return result;
   }
   for (const SafetyLevel& safety : safetyLevels(options.risk, options.zeta)) {
-    const Outcome outcome = searchOnce(problem, &push_checker, safety, guide, clock, &result);
+    const Outcome outcome = searchOnce(problem, &push_checker, safety, &guide, clock, &result);
     result.collision_checks = push_checker.checkCount();
     clock.addNodes(outcome.nodes);
     if (outcome.end == PlanSearch::End::kFound) {

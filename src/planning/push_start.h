@@ -25,6 +25,11 @@ class PushStart {
             map_T_start_.y() + sine_ * start_T_end.x() + cosine_ * start_T_end.y()};
   }
 
+  /// A vector of the map in the start's frame.
+  Eigen::Vector2d turnedBack(const Eigen::Vector2d& vector) const {
+    return {cosine_ * vector.x() + sine_ * vector.y(), cosine_ * vector.y() - sine_ * vector.x()};
+  }
+
  private:
   Pose2 map_T_start_;
   double cosine_;

@@ -9,13 +9,14 @@
 
 #include "casepush/model/push_plan.h"
 #include "casepush/world/sweep_checker.h"
+#include "goal_guide.h"
 
 namespace casepush {
 
 /// What stands around, prepared for one object to be pushed.
 struct Scene {
   SweepChecker sweeps;
-  std::vector<float> room;  ///< Of ObjectRoom::factors().
+  std::vector<HalfSteps> room;  ///< Of ObjectRoom::halfSteps().
 };
 
 /// Keeps the scenes of the last requests: most find everything where it was. Thread-safe.

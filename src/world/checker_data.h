@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -13,18 +14,28 @@ namespace casepush {
 /// An obstacle's parts, ready for pair tests.
 struct Obstacle {
   std::vector<ConvexPart> parts;
+  std::vector<Shadow> map_outlines;          ///< Of each part, and
+  std::vector<Eigen::Vector2d> map_centres;  ///< of the disc around it.
   double reach_m = 0.0;
 };
 
 /// Solids around, shared by copies of a checker.
-struct Surroundings {
-  std::vector<PlacedSolid> placed;
+class Surroundings {
+ public:
+  explicit Surroundings(std::vector<PlacedSolid> solids);
+
+  const std::vector<PlacedSolid> placed;
   std::vector<Obstacle> prepared;
-  CollisionChecker::Columns columns;  ///< Of map and solids.
+
+  /// Of the map and these solids; drawn when first asked for, always with the same map.
+  const CollisionChecker::Columns& columnsOn(const MapColumns& map) const;
+
+ private:
+  mutable std::once_flag drawn_;
+  mutable CollisionChecker::Columns columns_;
 };
 
-/// Deepest overlap of the footprint with a part of the obstacle; `part` names it. Without `part`
-/// any overlap will do.
+/// Deepest overlap of the footprint with a part of the obstacle; `part` names it.
 double depthInObstacle(const Footprint& footprint, const Pose2& map_T_solid,
                        const Obstacle& obstacle, const Pose2& map_T_obstacle, std::string* part);
 

@@ -72,22 +72,7 @@ std::shared_ptr<const Footprint> CollisionChecker::footprint(const Solid& solid,
 }
 
 void CollisionChecker::setObstacles(std::vector<PlacedSolid> obstacles) {
-  auto around = std::make_shared<Surroundings>();
-  if (!obstacles.empty()) around->columns = data_->map->columns;
-  for (const PlacedSolid& placed : obstacles) {
-    CASEPUSH_CHECK(placed.map_T_solid.isFinite(), placed.name);
-    Obstacle obstacle;
-    obstacle.parts = convexParts(placed.solid);
-    for (const ConvexPart& part : obstacle.parts) {
-      obstacle.reach_m = std::max(obstacle.reach_m, part.reach());
-    }
-    around->prepared.push_back(std::move(obstacle));
-    visitCells(placed, around->columns, [&around](std::size_t column, std::uint64_t slices) {
-      around->columns.bits[column] |= slices;
-    });
-  }
-  around->placed = std::move(obstacles);
-  data_->around = std::move(around);
+  data_->around = std::make_shared<Surroundings>(std::move(obstacles));
 }
 
 const std::vector<PlacedSolid>& CollisionChecker::obstacles() const {
@@ -157,7 +142,7 @@ bool CollisionChecker::isInside(const Pose2& map_T_x) const {
 }
 
 const CollisionChecker::Columns& CollisionChecker::columns() const {
-  return data_->around->placed.empty() ? data_->map->columns : data_->around->columns;
+  return data_->around->columnsOn(*data_->map);
 }
 
 std::shared_ptr<const CollisionChecker::Columns> CollisionChecker::mapColumns() const {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "casepush/common/random.h"
 #include "planning/furnished_room.h"
 
 namespace casepush {
@@ -18,13 +21,13 @@ WorldModel roomWithWall(double length_m) {
 }
 
 GoalGuide guideIn(const ObjectRoom& room, const std::vector<PlacedSolid>& obstacles = {}) {
-  return {room, room.factors(obstacles), kStart, kGoal, kTolerance_m};
+  return {room, room.halfSteps(obstacles), kStart, kGoal, kTolerance_m};
 }
 
 TEST(GoalGuide, isAboutTheStraightWayInTheOpen) {
   const CollisionChecker checker(*mapOf(emptyRoom()));
   const ObjectRoom room(checker.columns(), testChair().solid);
-  const GoalGuide guide = guideIn(room);
+  GoalGuide guide = guideIn(room);
   EXPECT_TRUE(guide.reachesStart());
   EXPECT_NEAR(guide.at(kStart), 7.0, 0.4);
   EXPECT_LT(guide.at(kGoal), 0.3);
@@ -36,10 +39,29 @@ TEST(GoalGuide, leadsAroundWallsAndObjects) {
   const double around_m = guideIn(room).at(kStart);
   EXPECT_GT(around_m, 10.0);
   // Chairs at the near side of the gap make the way longer.
-  const GoalGuide narrow = guideIn(room, {{testChair().solid, Pose2(7.5, 11.8, 0.0)},
-                                          {testChair().solid, Pose2(7.5, 12.8, 0.0)}});
+  GoalGuide narrow = guideIn(room, {{testChair().solid, Pose2(7.5, 11.8, 0.0)},
+                                    {testChair().solid, Pose2(7.5, 12.8, 0.0)}});
   EXPECT_TRUE(narrow.reachesStart());
   EXPECT_GT(narrow.at(kStart), around_m + 0.3);
+}
+
+// It goes on only as far as somebody asks.
+TEST(GoalGuide, answersTheSameInAnyOrder) {
+  const CollisionChecker checker(*mapOf(furnishedRoom()));
+  const ObjectRoom room(checker.columns(), testChair().solid);
+  Random random(3);
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < 400; ++i) {
+    points.emplace_back(random.uniform(-1.0, 16.0), random.uniform(-1.0, 16.0));
+  }
+  GoalGuide forwards = guideIn(room);
+  std::vector<double> ways_m;
+  for (const Eigen::Vector2d& point : points) ways_m.push_back(forwards.at(point));
+  GoalGuide backwards = guideIn(room);
+  for (std::size_t i = points.size(); i-- > 0;) {
+    EXPECT_EQ(backwards.at(points[i]), ways_m[i]) << points[i].transpose();
+  }
+  EXPECT_GT(*std::max_element(ways_m.begin(), ways_m.end()), 10.0);
 }
 
 TEST(GoalGuide, seesThatThereIsNoWay) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "casepush/common/random.h"
 
 namespace casepush {
@@ -59,6 +62,51 @@ TEST(GridFlood, findsTheShortestWays) {
                  [](int, int) { return true; });
     EXPECT_EQ(flood.distance(), slowly(grid, begin)) << seed;
   }
+}
+
+// Towards a corner first, from call to call as far as somebody asks.
+TEST(GridFlood, findsTheSameTowardsAPlaceAndBitByBit) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    const std::vector<int> grid = prices(seed);
+    const int begin = 10 * kWidth + 15;
+    const std::vector<int> expected = slowly(grid, begin);
+    const auto left = [](int cell) {
+      const int across = std::abs(cell % kWidth - 27);
+      const int up = std::abs(cell / kWidth - 2);
+      return 4 * std::max(across, up) + 2 * std::min(across, up);  // No step costs less.
+    };
+    GridFlood flood(kWidth * kHeight, kWidth, 54 + 6);
+    flood.begin(begin, left(begin));
+    Random random(seed);
+    for (int asked = 0; asked < 50; ++asked) {
+      const int cell = static_cast<int>(random.below(kWidth * kHeight));
+      std::vector<int> seen;
+      flood.spread([&](int from, int to, bool diagonal) { return cost(grid, from, to, diagonal); },
+                   [&](int at, int distance) {
+                     EXPECT_EQ(distance, expected[at]);
+                     seen.push_back(at);
+                     return at != cell;
+                   },
+                   left);
+      const bool is_seen = !seen.empty() && seen.back() == cell;
+      if (is_seen) continue;
+      EXPECT_EQ(flood.distance()[cell], expected[cell]) << seed;
+    }
+  }
+}
+
+TEST(GridFlood, reachesNothingBeyondALimit) {
+  const std::vector<int> grid(kWidth * kHeight, 1);
+  GridFlood flood(kWidth * kHeight, kWidth, 54);
+  flood.begin(10 * kWidth + 15);
+  flood.setLimit(5);
+  int asked = 0;
+  const auto cost = [](int, int, bool is_diagonal) { return is_diagonal ? 3 : 2; };
+  flood.spread(cost, [&asked](int, int distance) {
+    ++asked;
+    return distance < 5;
+  });
+  EXPECT_EQ(asked, 1 + 4 + 4 + 4);
 }
 
 TEST(GridFlood, endsWhenToldSo) {

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
 #include "casepush/common/input_error.h"
+#include "casepush/world/shadow.h"
 #include "world/random_scene.h"
 
 namespace casepush {
@@ -287,6 +289,35 @@ TEST(CollisionCheckerTest, obstaclesAreTestedExactlyWithMargin) {
   EXPECT_FALSE(checker.collides(*checker.footprint(post), {1, 0, 0}));
   EXPECT_TRUE(copy.collides(*copy.footprint(post), {1, 0, 0}));
   EXPECT_EQ(copy.mapColumns(), checker.mapColumns());
+}
+
+TEST(CollisionCheckerTest, obstaclesCollideExactlyWhereTheyAreContacts) {
+  Random random(5);
+  const Map map = mapOf(randomRoom(&random, 4.0, 0), 0.05);
+  CollisionChecker checker(map);
+  const std::vector<PlacedSolid> placed{{mixedSolid(), randomPose(&random, 1.5, 2.5)},
+                                        {overbedTable(), randomPose(&random, 1.5, 2.5)}};
+  checker.setObstacles(placed);
+  const double margin_m = 0.02;
+  const auto footprint = checker.footprint(mixedSolid(), margin_m);
+  int hits = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Pose2 pose = randomPose(&random, 0.9, 3.1);
+    double depth_m = 0.0;
+    for (const PlacedSolid& obstacle : placed) {
+      for (const ConvexPart& theirs : convexParts(obstacle.solid)) {
+        for (const ConvexPart& ours : convexParts(mixedSolid())) {
+          depth_m =
+              std::max(depth_m, overlapDepth(ours, pose, theirs, obstacle.map_T_solid, margin_m));
+        }
+      }
+    }
+    EXPECT_EQ(checker.collides(*footprint, pose), depth_m > 0.0);
+    EXPECT_EQ(checker.contacts(*footprint, pose).empty(), depth_m <= 0.0);
+    hits += depth_m > 0.0;
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_LT(hits, 4500);
 }
 
 TEST(CollisionCheckerTest, columnsHoldMapAndObstacles) {
