@@ -39,7 +39,7 @@ void PushTask::Data::enter(Stage next, const char* phase, const std::string& wha
 }
 
 void PushTask::Data::end(PushTaskStatus final_status, const std::string& why) {
-  if (stage == Stage::kPlan) {
+  if (stage == Stage::kPlan || is_repairing) {
     services.plans->cancel();
   }
   clear.reset();
@@ -121,7 +121,7 @@ void PushTask::Data::acceptPlan(const PlanResult& result, const Observation& obs
   const Pose2& planned = request.object.map_T_object;
   if (object != nullptr && (distance(object->map_T_object, planned) > kMovedM ||
                             yawError(object->map_T_object, planned) > kMovedRad)) {
-    progress.pushes_per_plan.push_back(0);
+    progress.beginPlan();
     replan(ReplanCause::kObjectMoved, goal.object_id + " was moved during planning", observation);
     return;
   }
@@ -132,7 +132,7 @@ void PushTask::Data::acceptPlan(const PlanResult& result, const Observation& obs
   }
   plans_without_progress = length_m < shortest_plan_m - kProgressM ? 0 : plans_without_progress + 1;
   shortest_plan_m = std::min(shortest_plan_m, length_m);
-  progress.pushes_per_plan.push_back(0);
+  progress.beginPlan();
   progress.push_index = 0;
   progress.push_count = static_cast<int>(plan->pushes.size());
   startPush(observation);

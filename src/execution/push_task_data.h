@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "casepush/execution/push_task.h"
+#include "rest_of_plan.h"
 #include "watches.h"
 
 namespace casepush {
@@ -47,6 +48,8 @@ struct PushTask::Data {
   int failed_plans = 0;
   int failed_approaches = 0;
   int plans_without_progress = 0;
+  bool is_repairing = false;   ///< A plan for what comes after the present push is being made.
+  bool repair_failed = false;  ///< The last one was.
   double shortest_plan_m = std::numeric_limits<double>::infinity();
 
   Tick run(const Observation& observation);
@@ -73,6 +76,9 @@ struct PushTask::Data {
   void concludePush(const PushReport& report, const Observation& observation);
   void judgeOutcome(const PushReport& report, const Observation& observation);
   void goOn(const PushReport& report, const ObjectState& object, const Observation& observation);
+  bool beginRepair(const RestVerdict& verdict, const PushPlan& rest_of_plan,
+                   const Observation& observation);
+  void endRepair();
   void replan(ReplanCause cause, const std::string& why, const Observation& observation);
   void measure(const Observation& observation);
 };

@@ -72,6 +72,7 @@ Tick PushTask::Data::pushOn(const Observation& observation) {
   if (isObservation(report)) {
     ++progress.pushes;
     ++progress.pushes_per_plan.back();
+    ++progress.pushes_unchanged.back();
     progress.idle_pushes = hasMoved(report) ? 0 : progress.idle_pushes + 1;
   }
   if (report.test.rejected) {
@@ -125,6 +126,7 @@ void PushTask::Data::judgeOutcome(const PushReport& report, const Observation& o
     return;
   }
   plan->pushes.erase(plan->pushes.begin());
+  endRepair();
   if (report.test.rejected && options.rest.replan_when_rejected) {
     replan(causeOf(report), report.explanation, observation);
   } else if (plan->pushes.empty()) {
@@ -142,11 +144,11 @@ void PushTask::Data::goOn(const PushReport& report, const ObjectState& object,
   const std::string newcomer = newcomerInTheWay(rest_of_plan.plan, observation);
   if (!newcomer.empty()) {
     replan(ReplanCause::kRestCollides, newcomer + " came in sight in the way", observation);
-  } else if (verdict.goes_on) {
+  } else if (!verdict.goes_on && report.test.rejected) {
+    replan(causeOf(report), report.explanation, observation);
+  } else if (verdict.goes_on || beginRepair(verdict, rest_of_plan.plan, observation)) {
     plan = rest_of_plan.plan;
     startPush(observation);
-  } else if (report.test.rejected) {
-    replan(causeOf(report), report.explanation, observation);
   } else {
     replan(verdict.cause, verdict.why, observation);
   }
@@ -159,6 +161,8 @@ void PushTask::Data::replan(ReplanCause cause, const std::string& why,
   progress.replan_history.push_back(cause);
   progress.replan_reasons.push_back(why);
   if (!isLimitReached()) {
+    is_repairing = false;
+    repair_failed = false;
     rest.reset();
     enter(Stage::kLook, "look", "planning anew: " + why, observation.stamp_s);
   }

@@ -9,9 +9,13 @@ namespace {
 constexpr double kLostAfterS = 2.0;
 constexpr double kClockSlackS = 0.5;
 constexpr double kLongestTickS = 0.2;
-// Scatter of the estimate of a resting object within one rest time.
+// How far apart two estimates of a resting object may be: in so many of their standard deviations,
+// at least, and at most.
+constexpr double kSameSigmas = 5.0;
 constexpr double kSamePlaceM = 0.01;
 constexpr double kSameYawRad = 0.03;
+constexpr double kFarPlaceM = 0.04;
+constexpr double kFarYawRad = 0.1;
 
 }  // namespace
 
@@ -55,8 +59,13 @@ bool RestWatch::isAtRest(const ObjectState& object) {
   last_stamp_s_ = object.stamp_s;
   const bool is_slow = !object.moving && object.twist.speed() < speed_mps_ &&
                        std::abs(object.twist.wz_rps) < yaw_rate_rps_;
-  const bool is_here = distance(object.map_T_object, began_at_) < kSamePlaceM &&
-                       std::abs(yawDifference(object.map_T_object, began_at_)) < kSameYawRad;
+  const Eigen::Vector3d variance = object.covariance.diagonal().cwiseMax(0.0);
+  const double scatter_m = kSameSigmas * std::sqrt(variance.head<2>().maxCoeff());
+  const double scatter_rad = kSameSigmas * std::sqrt(variance.z());
+  const bool is_here =
+      distance(object.map_T_object, began_at_) < std::clamp(scatter_m, kSamePlaceM, kFarPlaceM) &&
+      std::abs(yawDifference(object.map_T_object, began_at_)) <
+          std::clamp(scatter_rad, kSameYawRad, kFarYawRad);
   if (is_first || !is_slow || !is_here) {
     began_at_ = object.map_T_object;
     began_s_ = object.stamp_s;

@@ -52,7 +52,7 @@ const char* toString(ExecutePush::Phase phase) {
 ReportContext reportContext(const PushTaskProgress& progress, bool adapt, const PushReport& report,
                             std::size_t* reported_replans) {
   ReportContext context;
-  context.plan_number = progress.plans;
+  context.plan_number = static_cast<int>(progress.pushes_per_plan.size());
   context.push_index = progress.push_index;
   context.adapted = adapt && report.case_id > 0 && isObservation(report);
   if (progress.replan_history.size() > *reported_replans) {
@@ -143,6 +143,7 @@ PushObjectResult PushObjectActivity::result(ActivityEnd how, const std::string& 
   result.clearing_pushes = count(progress.clearing_pushes);
   result.plans = count(progress.plans);
   result.replans = count(progress.replans);
+  result.repairs = count(progress.repairs);
   result.rejected_predictions = count(progress.rejected_predictions);
   result.plan_length = progress.plan_length_m;
   result.duration = start_stamp_s_ < 0.0 ? 0.0 : now_s - start_stamp_s_;
@@ -167,6 +168,7 @@ std::optional<TaskSummary> PushObjectActivity::summary(ActivityEnd how,
   summary.yaw_error = ended.yaw_error;
   summary.plan_length = ended.plan_length;
   summary.plans = ended.plans;
+  summary.repairs = ended.repairs;
   std::transform(progress.pushes_per_plan.begin(), progress.pushes_per_plan.end(),
                  std::back_inserter(summary.pushes_of_plans), count);
   summary.pushes = ended.pushes;

@@ -161,6 +161,7 @@ void readTask(ParameterReader& reader, PushTaskOptions& options) {
   reader.read("task/break_off", options.break_off);
   reader.read("task/least_goal_share", options.rest.least_share);
   reader.read("task/replan_when_rejected", options.rest.replan_when_rejected);
+  reader.read("task/repair", options.rest.repair);
   reader.read("task/horizon", options.rest.horizon, 1, 100000);
   reader.read("task/plan_deadline", options.plan_deadline_s);
   reader.read("task/look_timeout", options.look_timeout_s);

@@ -137,6 +137,7 @@ int push(const PushArguments& arguments) {
                {"pushes", result.progress.pushes},
                {"clearing_pushes", result.progress.clearing_pushes},
                {"replans", result.progress.replans},
+               {"repairs", result.progress.repairs},
                {"replan_causes", replanCausesJson(result.progress.replan_causes)},
                {"replan_reasons", result.progress.replan_reasons},
                {"rejected_predictions", result.progress.rejected_predictions},

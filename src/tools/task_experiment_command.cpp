@@ -45,6 +45,7 @@ TaskExperimentOptions commonOptions(const TaskExperimentArguments& arguments) {
   options.run.task.break_off = !arguments.no_break_off;
   options.run.adapting.notice = !arguments.no_notice;
   options.run.task.rest.replan_when_rejected = arguments.replan_when_rejected;
+  options.run.task.rest.repair = !arguments.no_repair;
   return options;
 }
 
@@ -206,6 +207,9 @@ CLI::App* addExperiment(CLI::App& app, const char* name, const char* description
   command->add_flag("--replan-when-rejected", arguments->replan_when_rejected,
                     "Plan anew after each rejected prediction, also if the rest of the plan still "
                     "leads to the goal with the case as adapted");
+  command->add_flag("--no-repair", arguments->no_repair,
+                    "Give a plan up where its end misses the goal, instead of planning the pushes "
+                    "after the next one anew while that one is made");
   command->add_flag("--no-notice", arguments->no_notice,
                     "Adapt each case for itself, also if pushes give away that load or floor "
                     "changed");

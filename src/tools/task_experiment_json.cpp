@@ -38,6 +38,7 @@ nlohmann::ordered_json shareJson(int part, int whole) {
 struct Rows {
   std::vector<double> before_replan;  ///< Those that ended in a re-plan.
   std::vector<double> all;            ///< And those that ended at the goal.
+  std::vector<double> before_change;  ///< Those that ended in a re-plan or a repair.
 };
 
 Rows rowsOf(const std::vector<TaskRun>& runs) {
@@ -50,6 +51,10 @@ Rows rowsOf(const std::vector<TaskRun>& runs) {
       if (i < given_up) {
         rows.before_replan.push_back(progress.pushes_per_plan[i]);
       }
+    }
+    const auto changed = static_cast<std::size_t>(progress.replans + progress.repairs);
+    for (std::size_t i = 0; i < std::min(changed, progress.pushes_unchanged.size()); ++i) {
+      rows.before_change.push_back(progress.pushes_unchanged[i]);
     }
   }
   return rows;
@@ -109,9 +114,11 @@ nlohmann::ordered_json taskRunsJson(const std::vector<TaskRun>& runs) {
           {"statuses", statuses},
           {"pushes", spreadJson(runs, [](const auto& r) { return r.progress.pushes; })},
           {"replans", spreadJson(runs, [](const auto& r) { return r.progress.replans; })},
+          {"repairs", spreadJson(runs, [](const auto& r) { return r.progress.repairs; })},
           {"replan_causes", replanCausesJson(causes)},
           {"pushes_per_plan", pushes / static_cast<double>(replans + runs.size())},
           {"median_pushes_before_replan", quantile(rows.before_replan, 0.5)},
+          {"median_pushes_before_replan_or_repair", quantile(rows.before_change, 0.5)},
           {"median_pushes_with_a_plan", quantile(rows.all, 0.5)},
           {"rejected_predictions", shareJson(rejected, pushes)},
           {"tasks_with_noticed_changes", noticed},

@@ -24,6 +24,7 @@ struct TaskExperimentArguments {
   bool no_break_off = false;
   bool no_notice = false;
   bool replan_when_rejected = false;
+  bool no_repair = false;
 };
 
 /// One row of an experiment's table.

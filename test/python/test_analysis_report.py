@@ -65,6 +65,7 @@ def test_the_summary_tells_the_task_by_ground_truth(demo):
     assert sum(summary['tasks'][0]['consecutive_pushes']) == summary['pushes']
     assert sum(summary['tasks'][0]['replan_causes'].values()) == summary['replans']
     assert len(summary['tasks'][0]['replan_reasons']) == summary['replans']
+    assert summary['tasks'][0]['repairs'] == 2
     assert summary['tasks'][0]['tracking_rms_m'] == pytest.approx(0.01 * math.sqrt(2), rel=0.2)
     assert summary['missing'] == [] and summary['notes'] == []
 
@@ -98,6 +99,7 @@ def test_the_other_tables_agree_with_the_summary(demo):
     task, = read_table(demo.results, 'tasks')
     assert (task['object'], task['status'], task['success']) == (CHAIR, 'succeeded', 'true')
     assert int(task['replans']) == demo.summary['replans']
+    assert int(task['repairs']) == 2
     replans = read_table(demo.results, 'replans')
     assert len(replans) == demo.summary['replans']
     for row in replans:

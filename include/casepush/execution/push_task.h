@@ -57,6 +57,8 @@ struct RestOptions {
   /// Give the plan up after each rejected prediction (paper section 3.3), also if the rest, with
   /// the case as adapted by then, still leads to the goal.
   bool replan_when_rejected = false;
+  /// Where only the end misses, keep the next push, and while it is made plan anew what follows it.
+  bool repair = true;
 };
 
 struct PushTaskOptions {
@@ -90,16 +92,23 @@ struct PushTaskProgress {
   int idle_pushes = 0;      ///< The last ones, in a row, that did not move the object.
   int plans = 0;
   int replans = 0;  ///< Plans whose rest was given up for another plan.
+  int repairs = 0;  ///< Plans that were kept but for what followed the next push; no re-plans.
   ReplanCounts replan_causes;
   std::vector<ReplanCause> replan_history;  ///< The same in order, one for each re-plan.
   std::vector<std::string> replan_reasons;  ///< In words, one for each re-plan.
   /// Pushes made with each plan: all but the last plan were given up then. Plans of which no push
-  /// was made count with 0.
+  /// was made count with 0, repaired ones as one plan.
   std::vector<int> pushes_per_plan;
+  std::vector<int> pushes_unchanged;  ///< Likewise, but a repaired plan counts as another plan.
   int rejected_predictions = 0;
   double plan_length_m = 0.0;  ///< Of the first plan.
   double distance_to_goal_m = 0.0;
   double yaw_to_goal_rad = 0.0;
+
+  void beginPlan() {
+    pushes_per_plan.push_back(0);
+    pushes_unchanged.push_back(0);
+  }
 };
 
 /// Whatever a push task needs from outside its own logic. Only `plans`, `cases` and either

@@ -31,10 +31,10 @@ class TaskAnalysis:
 
     @property
     def replans(self):
-        """As the executor counted them, or as plans and pushes tell."""
+        """As the executor counted them, or as the pushes (repairs are plans, too) or plans tell."""
         if self.task.replans is not None:
             return len(self.task.replans)
-        plans = len(self.solved_plans) or max((p.plan_number for p in self.pushes), default=0)
+        plans = max((p.plan_number for p in self.pushes), default=len(self.solved_plans))
         return max(0, plans - 1)
 
     @property

@@ -125,6 +125,7 @@ class Builder:
                                                            message.explanation)
         record.replans = conversions.replans(message)
         record.clearing_pushes = message.clearing_pushes
+        record.repairs = message.repairs
 
     def _learn_goal(self, message, stamp_s):
         self._learning[message.goal_id.id] = records.LearningRecord(message.goal.object_id, stamp_s)

@@ -132,6 +132,7 @@ class TaskRecord:
     status: str = 'unfinished'
     explanation: str = ''
     replans: Optional[List['ReplanRecord']] = None  # None: the task's summary is not recorded.
+    repairs: Optional[int] = None  # Plans kept but for what followed the next push.
     clearing_pushes: int = 0  # To bring other objects out of the way.
 
 

@@ -42,7 +42,7 @@ def _task(entry):
         'tracked_yaw_error_rad': abs(tracked.yaw_rad) if tracked else None,
         'tracking_rms_m': entry.tracking_rms_m,
         'pushes': len(entry.pushes), 'plans': len(entry.plans), 'replans': entry.replans,
-        'replan_causes': entry.replan_causes,
+        'repairs': task.repairs, 'replan_causes': entry.replan_causes,
         'replan_reasons': None if task.replans is None else [r.reason for r in task.replans],
         'rejected_predictions': sum(p.rejected for p in entry.pushes),
         'consecutive_pushes': [run.pushes for run in entry.runs],

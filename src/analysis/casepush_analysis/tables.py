@@ -146,7 +146,7 @@ def tasks(analysis):
         causes = entry.replan_causes
         rows.append((
             entry.number, entry.task.object_id, entry.task.status, entry.success,
-            len(entry.pushes), len(entry.plans) or None, entry.replans,
+            len(entry.pushes), len(entry.plans) or None, entry.replans, entry.task.repairs,
             None if causes is None else ', '.join(
                 f'{count} {cause.replace("_", " ")}' for cause, count in causes.items()),
             metrics.mean(entry.completed_runs),
@@ -156,7 +156,8 @@ def tasks(analysis):
     return Table('tasks', [
         Column('task', 'task'), Column('object', 'object'), Column('status', 'ended as'),
         Column('success', 'success'), Column('pushes', 'pushes'), Column('plans', 'plans'),
-        Column('replans', 're-plans'), Column('replan_causes', 'because of'),
+        Column('replans', 're-plans'), Column('repairs', 'repairs'),
+        Column('replan_causes', 're-plans because of'),
         Column('mean_pushes_before_replan', 'pushes in a row', 1),
         Column('position_error_m', 'off by [m]', 3), Column('yaw_error_deg', 'off by [°]', 1),
         Column('duration_s', 'time [s]', 1)], rows)

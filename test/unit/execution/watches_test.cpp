@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "casepush/common/random.h"
+
 namespace casepush {
 namespace {
 
@@ -60,11 +62,13 @@ class RestWatchTest : public testing::Test {
     ObjectState object;
     object.stamp_s = stamp_s;
     object.map_T_object = Pose2(x_m, 0.0, 0.0);
+    object.covariance = covariance_;
     object.twist.vx_mps = speed_mps;
     object.moving = moving;
     return watch_.isAtRest(object);
   }
   RestWatch watch_{ExecutePushOptions{}};
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
 };
 
 TEST_F(RestWatchTest, needsTheRestTimeByWhatWasSeen) {
@@ -82,6 +86,27 @@ TEST_F(RestWatchTest, startsAnewOnMotion) {
   EXPECT_FALSE(see(1.8, 2.0));
   EXPECT_TRUE(see(1.91, 2.0));
   EXPECT_FALSE(see(2.0, 2.0, 0.0, true));
+}
+
+TEST_F(RestWatchTest, expectsTheScatterThatTheEstimatesHave) {
+  constexpr double kSigmaM = 0.006;
+  const auto rests = [this] {
+    Random random(4);
+    int seen_at_rest = 0;
+    for (int i = 0; i < 400; ++i) seen_at_rest += see(0.05 * i, random.normal(kSigmaM)) ? 1 : 0;
+    return seen_at_rest;
+  };
+  EXPECT_LT(rests(), 200);  // They say that they are exact, and so the object moves.
+  watch_.reset();
+  covariance_.diagonal() << kSigmaM * kSigmaM, kSigmaM * kSigmaM, 1e-4;
+  EXPECT_GT(rests(), 380);
+}
+
+TEST_F(RestWatchTest, noticesCreepingHoweverBadTheEstimatesAre) {
+  covariance_ = Eigen::Matrix3d::Identity();
+  bool at_rest = false;
+  for (int i = 0; i < 100; ++i) at_rest = at_rest || see(1.0 + 0.05 * i, 2.0 + 0.012 * i);
+  EXPECT_FALSE(at_rest);
 }
 
 TEST_F(RestWatchTest, noticesCreeping) {
