@@ -22,7 +22,7 @@ TEST_F(PushTaskTest, bringsTheObjectToTheGoalByGroundTruth) {
   for (int seed = 1; seed <= 8; ++seed) {
     world = FakeWorld(seed);
     world.scatter = 0.08;
-    world.noise_m = 0.006;
+    world.noise_m = 0.005;
     goal.seed = seed;
     reports.clear();
     plan_reports = 0;
