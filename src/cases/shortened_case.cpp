@@ -68,7 +68,9 @@ std::optional<Case> shortenedCase(const Case& push_case, double share) {
 }
 
 std::vector<Case> withShortened(std::vector<Case> cases) {
+  constexpr std::size_t kMostCases = 500;
   const std::size_t count = cases.size();
+  if (count > kMostCases || std::any_of(cases.begin(), cases.end(), isShortened)) return cases;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < kShares.size(); ++k) {
       std::optional<Case> shorter = shortenedCase(cases[i], kShares[k]);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "casepush/cases/shortened_case.h"
 #include "casepush/common/input_error.h"
 #include "casepush/ros/conversions.h"
 #include "casepush/ros/names.h"
@@ -94,7 +95,7 @@ void ExecutorNode::onOctomap(const Octomap& message) {
 
 void ExecutorNode::onCases(const PushCaseArray& message) {
   try {
-    cases_ = std::make_shared<const std::vector<Case>>(fromMessage(message));
+    cases_ = std::make_shared<const std::vector<Case>>(withShortened(fromMessage(message)));
   } catch (const InputError& error) {
     ROS_ERROR("cases ignored: %s", error.what());
   }

@@ -19,7 +19,7 @@ constexpr double kMarkersMoveM = 0.05;
 }  // namespace
 
 void LearnerNode::onReport(const ExecutedPush& message) {
-  if (!message.adapted || message.case_id == 0) {
+  if (!message.adapted || message.case_id <= 0) {
     return;
   }
   try {

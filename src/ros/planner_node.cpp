@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "casepush/cases/shortened_case.h"
 #include "casepush/common/input_error.h"
 #include "casepush/ros/conversions.h"
 #include "casepush/ros/markers.h"
@@ -71,7 +72,7 @@ std::shared_ptr<const PushPlanner> PlannerNode::plannerFor(const PlanPushGoal& g
 
 void PlannerNode::onCases(const PushCaseArray& message) {
   try {
-    auto cases = std::make_shared<const std::vector<Case>>(fromMessage(message));
+    auto cases = std::make_shared<const std::vector<Case>>(withShortened(fromMessage(message)));
     const std::lock_guard<std::mutex> lock(mutex_);
     cases_ = std::move(cases);
   } catch (const InputError& error) {

@@ -108,6 +108,18 @@ class PlannerNodeTest(unittest.TestCase):
             self.assertNotEqual(result.explanation, "")
             self.assertEqual(self.client.get_state(), GoalStatus.ABORTED)
 
+    def test_shortens_a_case_where_the_whole_one_leads_too_far(self):
+        self.cases.publish(PushCaseArray(cases=[harness.made_up_case(1, 0.0, 0.0, length_m=1.2)]))
+        goal = self.goal(x_m=0.6, y_m=0.0, yaw_rad=0.0, position_tolerance=0.3)
+        results = []
+
+        def found():
+            results.append(self.plan(goal))
+            return results[-1].status == PlanPushResult.SOLVED and len(
+                results[-1].plan.pushes) == 1 and results[-1].plan.pushes[0].case_id < 0
+
+        harness.wait_until(found, what="a plan with a shortened case")
+
     def test_says_that_there_are_no_cases(self):
         self.cases.publish(PushCaseArray())
         harness.wait_until(

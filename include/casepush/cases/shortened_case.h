@@ -20,7 +20,8 @@ namespace casepush {
 /// @pre The case passes validateCase and has a positive id.
 std::optional<Case> shortenedCase(const Case& push_case, double share);
 
-/// The cases and, after them, the shortened ones of each. @pre None is a shortened one.
+/// The cases and, after them, the shortened ones of each, unless they hold some already. More than 500
+/// cases are left alone: so many hold short pushes enough.
 std::vector<Case> withShortened(std::vector<Case> cases);
 
 /// Was it made by shortenedCase()?

@@ -95,5 +95,11 @@ TEST(WithShortened, GivesEachItsOwnNegativeIdAfterTheWholeOnes) {
   }
 }
 
+TEST(WithShortened, LeavesManyCasesAndShortenedOnesAlone) {
+  const std::vector<Case> all = withShortened({straightPush()});
+  EXPECT_EQ(withShortened(all).size(), all.size());
+  EXPECT_EQ(withShortened(std::vector<Case>(501, straightPush())).size(), 501U);
+}
+
 }  // namespace
 }  // namespace casepush
