@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "pose_cell.h"
+
 namespace casepush {
 namespace {
 
 constexpr double kSpread = 2.0;
-constexpr int kPushes = 3;
-// Where so many did not fit it is left open whether others do: all chains of 14 cases.
-constexpr int kMostTests = 14 * (1 + 14 * (1 + 14));
+constexpr int kPushes = 8;
+// Of poses so near to one another one is pushed on from.
+constexpr double kCell_m = 0.1;
+constexpr double kRho_m = 0.5;
+// Where so many did not fit it is left open whether others do.
+constexpr int kMostTests = 3000;
 
 }  // namespace
 
@@ -25,21 +30,21 @@ bool DeadEndCheck::mayEndInOne(const Pose2& map_T_start, const PreparedCase& pus
   const auto ends = sigmaPoints(push.start_outcome, kSpread);
   return std::any_of(ends.begin(), ends.end(), [&](const Pose2& start_T_end) {
     tests_left_ = kMostTests;
+    visited_.clear();
     return !canGoOn(map_T_start * start_T_end, push, kPushes);
   });
 }
 
 bool DeadEndCheck::canGoOn(const Pose2& map_T_object, const PreparedCase& previous, int pushes) {
-  if (request_.tolerance.isMet(request_.map_T_goal, map_T_object)) return true;
+  if (pushes == 0 || request_.tolerance.isMet(request_.map_T_goal, map_T_object)) return true;
+  if (!visited_.insert(poseCell(map_T_object, kCell_m, kRho_m)).second) return false;
   for (int i = 0; i < case_count_; ++i) {
     if (--tests_left_ < 0) return true;
     const int index = (last_ + i) % case_count_;
     const PreparedCase& next = cases_(index);
-    if (!checker_->isSafe(next, map_T_object) ||
-        !approaches_->canApproachSimply(map_T_object, &previous, next)) {
-      continue;
-    }
-    if (pushes == 1 || canGoOn(map_T_object * next.start_outcome.mean, next, pushes - 1)) {
+    if (checker_->isSafe(next, map_T_object) &&
+        approaches_->canApproachSimply(map_T_object, &previous, next) &&
+        canGoOn(map_T_object * next.start_outcome.mean, next, pushes - 1)) {
       last_ = index;
       return true;
     }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <unordered_set>
 
 #include "casepush/model/push_plan.h"
 #include "casepush/planning/push_checker.h"
@@ -13,9 +15,9 @@ namespace casepush {
 /// A plan needs its pushes to fit from their mean start poses only, and an object that came to rest
 /// a centimetre beside one may stand where no case can be applied: too near to a wall to be pushed
 /// from there, say. So each pose that a push may end in, the mean of its outcome and the sigma
-/// points twice the standard deviation away, must have a way on: a few cases that can be applied
-/// one after the other (safe at their own sigma points, and the robot gets to their starts), or
-/// fewer that lead to the goal.
+/// points twice the standard deviation away, must have a way on: eight cases that can be applied one
+/// after the other to poses that differ (each safe at its own sigma points, and the robot gets to
+/// its start), or fewer that lead to the goal.
 class DeadEndCheck {
  public:
   /// Cases by index, prepared when they are first asked for.
@@ -38,6 +40,7 @@ class DeadEndCheck {
   PushChecker* checker_;
   ApproachVerifier* approaches_;
   int tests_left_ = 0;
+  std::unordered_set<std::uint64_t> visited_;  // Cells of poses that were pushed on from.
   int last_ = 0;  // The case that was found last: mostly it fits the next time, too.
 };
 
