@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "casepush/common/same_pose.h"
 #include "context_view.h"
 #include "predictive.h"
-#include "same_pose.h"
 
 namespace casepush {
 namespace {

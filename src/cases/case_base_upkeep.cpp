@@ -8,7 +8,7 @@
 #include "case_blobs.h"
 #include "casepush/cases/case_tube.h"
 #include "casepush/common/input_error.h"
-#include "same_pose.h"
+#include "casepush/common/same_pose.h"
 
 namespace casepush {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "casepush/common/same_pose.h"
 #include "push_start.h"
 #include "straight_motion.h"
 
@@ -25,10 +26,6 @@ bool isApart(const std::vector<Eigen::Vector2d>& ends, const Eigen::Vector2d& en
 // So many steps may be left out if nothing is in the way of that length.
 int stepsWithin(double free_m, double step_m) {
   return free_m > 0.0 && step_m > 0.0 ? static_cast<int>(std::min(1e6, free_m / step_m)) : 0;
-}
-
-bool isSame(const Pose2& a, const Pose2& b) {
-  return a.x() == b.x() && a.y() == b.y() && a.yaw() == b.yaw();
 }
 
 }  // namespace

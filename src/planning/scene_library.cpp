@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "casepush/common/same_pose.h"
+
 namespace casepush {
 namespace {
 
-bool isSame(const PlacedObject& a, const PlacedObject& b) {
-  const Pose2& here = a.map_T_object;
-  const Pose2& there = b.map_T_object;
-  return a.id == b.id && a.model == b.model && here.x() == there.x() && here.y() == there.y() &&
-         here.yaw() == there.yaw();
+bool isSameObject(const PlacedObject& a, const PlacedObject& b) {
+  return a.id == b.id && a.model == b.model && isSame(a.map_T_object, b.map_T_object);
 }
 
 }  // namespace
@@ -21,7 +20,7 @@ std::shared_ptr<const Scene> SceneLibrary::get(const std::string& model, const O
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return entry.model == model &&
            std::equal(obstacles.begin(), obstacles.end(), entry.obstacles.begin(),
-                      entry.obstacles.end(), isSame);
+                      entry.obstacles.end(), isSameObject);
   });
   if (found != entries_.end()) {
     entries_.splice(entries_.begin(), entries_, found);

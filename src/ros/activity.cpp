@@ -65,7 +65,7 @@ ReportContext reportContext(const PushTaskProgress& progress, bool adapt, const 
 PushObjectActivity::PushObjectActivity(PushObjectServer::GoalHandle goal, PushTaskGoal task_goal,
                                        RobotModel robot, PushTaskServices services,
                                        PushTaskOptions options, ReportSink sink)
-    : goal_(std::move(goal)),
+    : GoalActivity(std::move(goal), task_),
       task_goal_(std::move(task_goal)),
       task_(task_goal_, std::move(robot), withReports(std::move(services), std::move(sink)),
             options) {}
@@ -77,19 +77,6 @@ PushTaskServices PushObjectActivity::withReports(PushTaskServices services, Repo
   };
   return services;
 }
-
-Tick PushObjectActivity::tick(const Observation& observation) {
-  if (start_stamp_s_ < 0.0) {
-    start_stamp_s_ = observation.stamp_s;
-  }
-  return task_.tick(observation);
-}
-
-void PushObjectActivity::cancel() { task_.cancel(); }
-
-std::string PushObjectActivity::goalId() const { return goal_.getGoalID().id; }
-
-std::string PushObjectActivity::describe() const { return task_.describe(); }
 
 ExecutorState stateOf(const PushTaskProgress& progress) {
   ExecutorState state;
@@ -146,7 +133,7 @@ PushObjectResult PushObjectActivity::result(ActivityEnd how, const std::string& 
   result.repairs = count(progress.repairs);
   result.rejected_predictions = count(progress.rejected_predictions);
   result.plan_length = progress.plan_length_m;
-  result.duration = start_stamp_s_ < 0.0 ? 0.0 : now_s - start_stamp_s_;
+  result.duration = duration(now_s);
   return result;
 }
 
@@ -161,7 +148,7 @@ std::optional<TaskSummary> PushObjectActivity::summary(ActivityEnd how,
   summary.goal = toMessage(task_goal_.map_T_goal);
   summary.position_tolerance = task_goal_.tolerance.position_m;
   summary.yaw_tolerance = task_goal_.tolerance.yaw_rad;
-  summary.start_stamp = toRosTime(std::max(0.0, start_stamp_s_));
+  summary.start_stamp = toRosTime(startStamp().value_or(0.0));
   summary.status = statusName(how, task_.status());
   summary.explanation = ended.explanation;
   summary.position_error = ended.position_error;
@@ -188,15 +175,7 @@ void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation,
 
 ExecutePushActivity::ExecutePushActivity(ExecutePushServer::GoalHandle goal, ExecutePush push,
                                          ReportSink sink)
-    : goal_(std::move(goal)), push_(std::move(push)), sink_(std::move(sink)) {}
-
-Tick ExecutePushActivity::tick(const Observation& observation) { return push_.tick(observation); }
-
-void ExecutePushActivity::cancel() { push_.cancel(); }
-
-std::string ExecutePushActivity::goalId() const { return goal_.getGoalID().id; }
-
-std::string ExecutePushActivity::describe() const { return push_.describe(); }
+    : GoalActivity(std::move(goal), push_), push_(std::move(push)), sink_(std::move(sink)) {}
 
 ExecutorState ExecutePushActivity::state() const {
   ExecutorState state;

@@ -65,11 +65,9 @@ void ExecutorNode::onPushObject(PushObjectServer::GoalHandle goal) {
     const std::string missing = whatIsMissingFor({task.object_id});
     if (!missing.empty()) return missing;
     plans_.setSearch(search);
-    auto activity = std::make_unique<PushObjectActivity>(
-        goal, task, parameters_.furnishing.robot, taskServices(task.object_id), parameters_.task,
-        [this](const PushReport& report, const ReportContext& context) {
-          publishReport(report, context);
-        });
+    auto activity = std::make_unique<PushObjectActivity>(goal, task, parameters_.furnishing.robot,
+                                                         taskServices(task.object_id),
+                                                         parameters_.task, reportSink());
     goal.setAccepted();
     begin(std::move(activity));
     return missing;
@@ -92,11 +90,8 @@ void ExecutorNode::onRearrange(RearrangeServer::GoalHandle goal) {
       return std::make_unique<PushTask>(task, parameters_.furnishing.robot, std::move(services),
                                         parameters_.task);
     };
-    auto activity = std::make_unique<RearrangeActivity>(
-        goal, request, rearrangeServices(), make_task,
-        [this](const PushReport& report, const ReportContext& context) {
-          publishReport(report, context);
-        });
+    auto activity = std::make_unique<RearrangeActivity>(goal, request, rearrangeServices(),
+                                                        make_task, reportSink());
     goal.setAccepted();
     begin(std::move(activity));
     return missing;
@@ -149,10 +144,7 @@ void ExecutorNode::onExecutePush(ExecutePushServer::GoalHandle goal) {
     return reject<ExecutePushResult>(goal, ExecutePushResult::NOT_READY, missing);
   }
   try {
-    auto activity = std::make_unique<ExecutePushActivity>(
-        goal, makePush(wanted), [this](const PushReport& report, const ReportContext& context) {
-          publishReport(report, context);
-        });
+    auto activity = std::make_unique<ExecutePushActivity>(goal, makePush(wanted), reportSink());
     goal.setAccepted();
     begin(std::move(activity));
   } catch (const InputError& error) {

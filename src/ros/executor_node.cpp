@@ -259,6 +259,12 @@ void ExecutorNode::finish() {
   ended->finish(end_, end_explanation_, last_stamp_s_);
 }
 
+ReportSink ExecutorNode::reportSink() {
+  return [this](const PushReport& report, const ReportContext& context) {
+    publishReport(report, context);
+  };
+}
+
 void ExecutorNode::publishReport(const PushReport& report, const ReportContext& context) {
   ExecutedPush message = toMessage(report);
   message.header.stamp = toRosTime(last_stamp_s_);

@@ -20,7 +20,7 @@ static_assert(RearrangeResult::TIMEOUT == static_cast<int>(PushTaskStatus::kTime
 RearrangeActivity::RearrangeActivity(RearrangeServer::GoalHandle goal, RearrangeRequest request,
                                      RearrangeServices services, TaskMaker make_task,
                                      ReportSink sink)
-    : goal_(std::move(goal)),
+    : GoalActivity(std::move(goal), rearrange_),
       request_(std::move(request)),
       rearrange_(request_, complete(std::move(services), std::move(make_task), std::move(sink)),
                  RearrangeOptions{}) {}
@@ -38,18 +38,9 @@ RearrangeServices RearrangeActivity::complete(RearrangeServices services, TaskMa
 }
 
 Tick RearrangeActivity::tick(const Observation& observation) {
-  if (start_stamp_s_ < 0.0) {
-    start_stamp_s_ = observation.stamp_s;
-  }
   last_ = observation;
-  return rearrange_.tick(observation);
+  return GoalActivity::tick(observation);
 }
-
-void RearrangeActivity::cancel() { rearrange_.cancel(); }
-
-std::string RearrangeActivity::goalId() const { return goal_.getGoalID().id; }
-
-std::string RearrangeActivity::describe() const { return rearrange_.describe(); }
 
 ExecutorState RearrangeActivity::state() const {
   ExecutorState state;
@@ -112,7 +103,7 @@ void RearrangeActivity::finish(ActivityEnd how, const std::string& explanation, 
   for (const int index : rearrange_.order()) {
     result.order.push_back(rearrange_.items()[index].object_id);
   }
-  result.duration = start_stamp_s_ < 0.0 ? 0.0 : now_s - start_stamp_s_;
+  result.duration = duration(now_s);
   endGoal(goal_, how, rearrange_.status() == PushTaskStatus::kSucceeded, result);
 }
 

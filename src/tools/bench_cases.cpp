@@ -236,7 +236,7 @@ void addBenchCasesCommand(CLI::App& bench, Run& run) {
   count("--practices", arguments->practices, "Observations of each of them", 1000);
   count("--steps", arguments->steps, "Steps of each trajectory", 10000);
   count("--updates", arguments->updates, "Updates to time", 1000000);
-  command->callback([arguments, &run] { run = [arguments] { return benchCases(*arguments); }; });
+  setWork(*command, run, arguments, benchCases);
 }
 
 }  // namespace casepush

@@ -195,10 +195,8 @@ void addCollisionBench(CLI::App& bench, Run& run) {
       "columns, sweep masks exactly and conservatively");
   addCommonOptions(*command, arguments->common);
   CollisionBenchmarkOptions& options = arguments->options;
-  command->add_option("--object", options.object, "Object by name or URDF file")
-      ->capture_default_str();
-  command->add_option("--robot", options.robot, "Robot by name or URDF file")
-      ->capture_default_str();
+  addObjectOption(*command, options.object);
+  addRobotOption(*command, options.robot);
   command->add_option("--tests", options.tests, "Random tests over all rooms")
       ->capture_default_str();
   command->add_option("--rooms", options.rooms, "Random rooms")->capture_default_str();
@@ -209,8 +207,7 @@ void addCollisionBench(CLI::App& bench, Run& run) {
   command->add_flag("--static-table", options.static_table,
                     "Also measure a table made beforehand that answers for all pushes at a start "
                     "at once");
-  command->callback(
-      [arguments, &run] { run = [arguments] { return benchCollision(*arguments); }; });
+  setWork(*command, run, arguments, benchCollision);
 }
 
 }  // namespace
@@ -228,10 +225,8 @@ void addBenchCommand(CLI::App& app, Run& run) {
       "sim", "Compare the caster models: outcomes of random pushes as distributions, and speed");
   addCommonOptions(*command, arguments->common);
   OutcomeComparisonOptions& outcomes = arguments->outcomes;
-  command->add_option("--object", outcomes.object, "Object by name or URDF file")
-      ->capture_default_str();
-  command->add_option("--robot", outcomes.robot, "Robot by name or URDF file")
-      ->capture_default_str();
+  addObjectOption(*command, outcomes.object);
+  addRobotOption(*command, outcomes.robot);
   command->add_option("--pushes", outcomes.pushes, "Random pushes; 0: measure speed only")
       ->capture_default_str();
   command->add_option("--swivels", outcomes.swivels, "Random swivel angles for each push")
@@ -245,7 +240,7 @@ void addBenchCommand(CLI::App& app, Run& run) {
                     "by push");
   command->add_flag("--laws", arguments->laws,
                     "Also measure push force, start-up force, coasting and trailing of a cart");
-  command->callback([arguments, &run] { run = [arguments] { return benchSim(*arguments); }; });
+  setWork(*command, run, arguments, benchSim);
 }
 
 }  // namespace casepush

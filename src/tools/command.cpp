@@ -49,6 +49,34 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "Print one JSON object on stdout; logs go to stderr");
 }
 
+void addObjectOption(CLI::App& command, std::string& object) {
+  command.add_option("--object", object, "Object by name or URDF file")->capture_default_str();
+}
+
+void addRobotOption(CLI::App& command, std::string& robot) {
+  command.add_option("--robot", robot, "Robot by name or URDF file")->capture_default_str();
+}
+
+void addJobsOption(CLI::App& command, int& jobs) {
+  command.add_option("--jobs", jobs, "Threads; the result does not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+}
+
+void addCaseBaseOption(CLI::App& command, std::string& case_base) {
+  command.add_option("--case-base", case_base, "SQLite file with the objects' cases")
+      ->required()
+      ->check(notEmpty());
+}
+
+void addCasesOption(CLI::App& command, ExplorationOptions& options) {
+  command.add_option("--cases", options.cases, "Cases to learn")->capture_default_str();
+}
+
+void addPracticesOption(CLI::App& command, ExplorationOptions& options) {
+  command.add_option("--practices", options.practices, "Pushes per case")->capture_default_str();
+}
+
 void addCasterModelOption(CLI::App& command, CasterModel& model) {
   command
       .add_option_function<std::string>(

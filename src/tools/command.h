@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "casepush/execution/exploration.h"
 #include "casepush/sim/simulator.h"
 
 namespace casepush {
@@ -46,6 +48,22 @@ CLI::Validator notEmpty();
 
 /// --seed and --json.
 void addCommonOptions(CLI::App& command, CommonOptions& options);
+
+/// What several commands take, with its default in the help. @pre The value lives until the command
+/// line is parsed.
+void addObjectOption(CLI::App& command, std::string& object);         ///< --object
+void addRobotOption(CLI::App& command, std::string& robot);           ///< --robot
+void addJobsOption(CLI::App& command, int& jobs);                     ///< --jobs
+void addCaseBaseOption(CLI::App& command, std::string& case_base);    ///< --case-base, required.
+void addCasesOption(CLI::App& command, ExplorationOptions& options);  ///< --cases
+void addPracticesOption(CLI::App& command, ExplorationOptions& options);  ///< --practices
+
+/// Has `command` do `work` with the arguments that it was given.
+template <typename Arguments, typename Work>
+void setWork(CLI::App& command, Run& run, const std::shared_ptr<Arguments>& arguments, Work work) {
+  command.callback(
+      [&run, arguments, work] { run = [arguments, work] { return work(*arguments); }; });
+}
 
 /// --caster-model. @pre `model` lives until the command line is parsed.
 void addCasterModelOption(CLI::App& command, CasterModel& model);

@@ -88,8 +88,7 @@ void addCoverage(CLI::App& app, Run& run) {
       "two "
       "and three cases reach, cases that turn by more than 0.3 rad, plans for random problems");
   addCommonOptions(*command, arguments->common);
-  command->add_option("--object", options.object, "Object by name or URDF file")
-      ->capture_default_str();
+  addObjectOption(*command, options.object);
   command->add_option("--world", options.world, "Where the problems are set")
       ->capture_default_str();
   command->add_option("--seeds", options.seeds, "Case bases to learn with each strategy")
@@ -98,15 +97,11 @@ void addCoverage(CLI::App& app, Run& run) {
   command->add_option("--problems", options.problems, "Problems to plan with each case base")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
-  command->add_option("--cases", options.learning.exploration.cases, "Cases to learn")
-      ->capture_default_str();
-  command->add_option("--practices", options.learning.exploration.practices, "Pushes per case")
-      ->capture_default_str();
-  command->add_option("--jobs", options.learning.jobs, "Threads; the result does not depend on it")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  addCasesOption(*command, options.learning.exploration);
+  addPracticesOption(*command, options.learning.exploration);
+  addJobsOption(*command, options.learning.jobs);
   addCasterModelOption(*command, options.learning.lab.simulator.caster_model);
-  command->callback([arguments, &run] { run = [arguments] { return coverage(*arguments); }; });
+  setWork(*command, run, arguments, coverage);
 }
 
 struct TransferArguments {
@@ -182,7 +177,7 @@ void addTransfer(CLI::App& app, Run& run) {
                    "Pushes per case of the known object")
       ->capture_default_str();
   addCasterModelOption(*command, options.learning.lab.simulator.caster_model);
-  command->callback([arguments, &run] { run = [arguments] { return transfer(*arguments); }; });
+  setWork(*command, run, arguments, transfer);
 }
 
 }  // namespace

@@ -81,11 +81,8 @@ void addGrowthBench(CLI::App& bench, Run& run) {
       "How fast Exp-RRT grows towards a goal that it never meets, how first plans depend on the "
       "number of cases, and how late planners return after a deadline");
   addCommonOptions(*command, arguments->common);
-  command->add_option("--case-base", arguments->case_base, "SQLite file with the object's cases")
-      ->required()
-      ->check(notEmpty());
-  command->add_option("--object", options.object, "Object by name or URDF file")
-      ->capture_default_str();
+  addCaseBaseOption(*command, arguments->case_base);
+  addObjectOption(*command, options.object);
   command->add_option("--world", options.world, "World by name or YAML file")
       ->capture_default_str();
   command->add_option("--nodes", options.nodes, "Sizes of the trees, a,b,c")
@@ -100,7 +97,7 @@ void addGrowthBench(CLI::App& bench, Run& run) {
   command->add_option("--deadlines", options.deadlines_s, "Wall seconds, a,b,c; 0.0001 or more")
       ->delimiter(',')
       ->capture_default_str();
-  command->callback([arguments, &run] { run = [arguments] { return benchGrowth(*arguments); }; });
+  setWork(*command, run, arguments, benchGrowth);
 }
 
 }  // namespace casepush

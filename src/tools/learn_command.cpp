@@ -116,14 +116,12 @@ void addLearnCommand(CLI::App& app, Run& run) {
       app.add_subcommand("learn", "Learn cases of an object by pushing it; resumes what was begun");
   addCommonOptions(*command, arguments->common);
   command->add_option("--object", arguments->object, "Object by name or URDF file")->required();
-  command->add_option("--robot", arguments->robot, "Robot by name or URDF file")
-      ->capture_default_str();
+  addRobotOption(*command, arguments->robot);
   command->add_option("--case-base", arguments->case_base, "SQLite file; created if missing")
       ->required();
   ExplorationOptions& exploration = arguments->learning.exploration;
-  command->add_option("--cases", exploration.cases, "Cases to learn")->capture_default_str();
-  command->add_option("--practices", exploration.practices, "Pushes per case")
-      ->capture_default_str();
+  addCasesOption(*command, exploration);
+  addPracticesOption(*command, exploration);
   command
       ->add_option_function<std::string>(
           "--coverage",
@@ -149,7 +147,7 @@ void addLearnCommand(CLI::App& app, Run& run) {
       ->capture_default_str();
   addCasterModelOption(*command, arguments->learning.lab.simulator.caster_model);
   addLoadOption(*command, arguments->learning.load);
-  command->callback([arguments, &run] { run = [arguments] { return learn(*arguments); }; });
+  setWork(*command, run, arguments, learn);
 }
 
 }  // namespace casepush

@@ -71,20 +71,16 @@ void addMapBench(CLI::App& bench, Run& run) {
       "What a large building costs: memory, reading, changes of a 1 m box, plans from corner to "
       "corner");
   addCommonOptions(*command, arguments->common);
-  command->add_option("--case-base", arguments->case_base, "SQLite file with the object's cases")
-      ->required()
-      ->check(notEmpty());
-  command->add_option("--object", options.building.object, "Object by name or URDF file")
-      ->capture_default_str();
-  command->add_option("--robot", options.building.robot, "Robot by name or URDF file")
-      ->capture_default_str();
+  addCaseBaseOption(*command, arguments->case_base);
+  addObjectOption(*command, options.building.object);
+  addRobotOption(*command, options.building.robot);
   command->add_option("--size", options.building.size_m, "Edge length of the building [m]")
       ->capture_default_str();
   command->add_option("--resolution", options.resolution_m, "Cell of the OctoMap [m]")
       ->capture_default_str();
   command->add_option("--deadline", options.deadline_s, "Wall seconds for each plan")
       ->capture_default_str();
-  command->callback([arguments, &run] { run = [arguments] { return benchMap(*arguments); }; });
+  setWork(*command, run, arguments, benchMap);
 }
 
 }  // namespace casepush

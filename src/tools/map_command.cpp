@@ -95,11 +95,11 @@ void addMapCommand(CLI::App& app, Run& run) {
   CLI::App* to_file = map->add_subcommand("convert", "Write any map as an OctoMap .bt file");
   addInputOptions(*to_file, *arguments);
   to_file->add_option("output", arguments->output, "File to write (.bt)")->required();
-  to_file->callback([arguments, &run] { run = [arguments] { return convert(*arguments); }; });
+  setWork(*to_file, run, arguments, convert);
   auto shown = std::make_shared<MapArguments>();
   CLI::App* command = map->add_subcommand("info", "Resolution, extent, size and memory of a map");
   addInputOptions(*command, *shown);
-  command->callback([shown, &run] { run = [shown] { return info(*shown); }; });
+  setWork(*command, run, shown, info);
 }
 
 }  // namespace casepush

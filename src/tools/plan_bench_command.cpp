@@ -129,14 +129,11 @@ void addPlanBench(CLI::App& bench, Run& run) {
       "plan", "Compare planners on random problems: time to the first plan, its pushes and nodes");
   addCommonOptions(*command, arguments->common);
   PlanBenchmarkOptions& options = arguments->options;
-  command->add_option("--object", options.object, "Object by name or URDF file")
-      ->capture_default_str();
+  addObjectOption(*command, options.object);
   command->add_option("--world,--worlds", options.worlds, "Worlds by name or YAML file, a,b,c")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--case-base", arguments->case_base, "SQLite file with the object's cases")
-      ->required()
-      ->check(notEmpty());
+  addCaseBaseOption(*command, arguments->case_base);
   command
       ->add_option("--planners", arguments->planners,
                    "Which to compare, as in plan --planner, a,b,c; default: all")
@@ -149,7 +146,7 @@ void addPlanBench(CLI::App& bench, Run& run) {
                     "Let planners improve their first plan, as casepush push does");
   command->add_option("--log", arguments->log,
                       "Also write an OMPL benchmark log, for Planner Arena");
-  command->callback([arguments, &run] { run = [arguments] { return benchPlan(*arguments); }; });
+  setWork(*command, run, arguments, benchPlan);
 }
 
 }  // namespace casepush

@@ -146,7 +146,7 @@ void addPlanCommand(CLI::App& app, Run& run) {
   command->add_flag("--anytime", arguments->anytime,
                     "Use all the time until the deadline to look for a quicker plan (exp_rrt)");
   command->add_flag("--paper", arguments->paper, "The same as --planner exp_rrt_paper");
-  command->callback([arguments, &run] { run = [arguments] { return plan(*arguments); }; });
+  setWork(*command, run, arguments, plan);
 }
 
 }  // namespace casepush

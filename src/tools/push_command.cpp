@@ -183,7 +183,7 @@ void addPushCommand(CLI::App& app, Run& run) {
       ->capture_default_str();
   addCasterModelOption(*command, arguments->caster_model);
   addLoadOption(*command, arguments->load);
-  command->callback([arguments, &run] { run = [arguments] { return push(*arguments); }; });
+  setWork(*command, run, arguments, push);
 }
 
 }  // namespace casepush

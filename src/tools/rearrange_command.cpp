@@ -156,9 +156,7 @@ void addRearrangeCommand(CLI::App& app, Run& run) {
       ->required()
       ->check(notEmpty());
   addMapOption(*command, arguments->map);
-  command->add_option("--case-base", arguments->case_base, "SQLite file with the objects' cases")
-      ->required()
-      ->check(notEmpty());
+  addCaseBaseOption(*command, arguments->case_base);
   command
       ->add_option("--goal", arguments->goals,
                    "Goal of an object of the world, once for each: id:x,y,yaw in the map, m and "
@@ -174,7 +172,7 @@ void addRearrangeCommand(CLI::App& app, Run& run) {
       ->check(finiteIn(1.0, 360000.0))
       ->capture_default_str();
   addCasterModelOption(*command, arguments->caster_model);
-  command->callback([arguments, &run] { run = [arguments] { return rearrange(*arguments); }; });
+  setWork(*command, run, arguments, rearrange);
 }
 
 }  // namespace casepush

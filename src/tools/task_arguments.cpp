@@ -44,9 +44,7 @@ void addTaskOptions(CLI::App& command, TaskArguments& arguments) {
   command.add_option("--world", arguments.world, "World by name or YAML file")
       ->capture_default_str();
   addMapOption(command, arguments.map);
-  command.add_option("--case-base", arguments.case_base, "SQLite file with the object's cases")
-      ->required()
-      ->check(notEmpty());
+  addCaseBaseOption(command, arguments.case_base);
   command.add_option("--start", arguments.start, "Object's start: x_m y_m yaw_deg in the map")
       ->expected(3);
   command

@@ -169,15 +169,13 @@ CLI::App* addExperiment(CLI::App& app, const char* name, const char* description
       ->add_option("--case-bases", options.case_bases,
                    "Case bases to learn for each row; tasks take turns")
       ->capture_default_str();
-  command->add_option("--cases", options.learning.exploration.cases, "Cases to learn")
-      ->capture_default_str();
+  addCasesOption(*command, options.learning.exploration);
   command
       ->add_option("--caster-models", arguments->caster_models,
                    "How the simulator moves casters, one or both: planar, featherstone")
       ->check(CLI::IsMember({"planar", "featherstone"}))
       ->capture_default_str();
-  command->add_option("--jobs", options.jobs, "Threads; the result does not depend on it")
-      ->capture_default_str();
+  addJobsOption(*command, options.jobs);
   command
       ->add_option("--rest-rule", arguments->rest_rule,
                    "When the rest of a plan is given up: mean_at_goal (as soon as its mean ends "
@@ -216,14 +214,8 @@ CLI::App* addExperiment(CLI::App& app, const char* name, const char* description
   addPlannerOptions(*command, arguments->planner);
   command->add_flag("--no-break-off", arguments->no_break_off,
                     "Finish pushes whose object leaves its expected course");
-  command->callback(
-      [arguments, &run, work] { run = [arguments, work] { return work(*arguments); }; });
+  setWork(*command, run, arguments, work);
   return command;
-}
-
-void addPractices(CLI::App& command, TaskExperimentOptions& options) {
-  command.add_option("--practices", options.learning.exploration.practices, "Pushes per case")
-      ->capture_default_str();
 }
 
 }  // namespace
@@ -259,7 +251,7 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
         ->add_option("--density", arguments->experiment.room_density,
                      "Share of the floor under furniture")
         ->capture_default_str();
-    addPractices(*command, arguments->experiment);
+    addPracticesOption(*command, arguments->experiment.learning.exploration);
   }
   {
     auto arguments = std::make_shared<TaskExperimentArguments>();
@@ -269,8 +261,7 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
         "Consecutive pushes before a re-plan over the number of practices (Fig. 8 of the paper): "
         "an open floor, the goal diagonally away",
         run, arguments, replans);
-    command->add_option("--object", arguments->experiment.object, "Object by name or URDF file")
-        ->capture_default_str();
+    addObjectOption(*command, arguments->experiment.object);
     command->add_option("--practices", arguments->practices, "Pushes per case, one or several")
         ->capture_default_str();
     command->add_option("--distance", arguments->experiment.goal_distance_m, "To the goal [m]")
@@ -287,11 +278,10 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
         "Cases learnt without a load, used with and without one, adapted or not (Fig. 12 of the "
         "paper): consecutive pushes before a re-plan, the goal diagonally away",
         run, arguments, adaptation);
-    command->add_option("--object", arguments->experiment.object, "Object by name or URDF file")
-        ->capture_default_str();
+    addObjectOption(*command, arguments->experiment.object);
     command->add_option("--distance", arguments->experiment.goal_distance_m, "To the goal [m]")
         ->capture_default_str();
-    addPractices(*command, arguments->experiment);
+    addPracticesOption(*command, arguments->experiment.learning.exploration);
     addLoadOption(*command, arguments->experiment.load);
   }
   {
@@ -305,8 +295,7 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
         "free one (Table 1 of the paper): the same tasks with these objects fixed and pushed out "
         "of the way",
         run, arguments, obstacles);
-    command->add_option("--object", arguments->experiment.object, "Object by name or URDF file")
-        ->capture_default_str();
+    addObjectOption(*command, arguments->experiment.object);
     command
         ->add_option("--movable", arguments->experiment.movable,
                      "What stands in the door, by name or URDF file")
@@ -314,7 +303,7 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
         ->capture_default_str();
     command->add_option("--size", arguments->experiment.room_size_m, "Edge of the rooms [m]")
         ->capture_default_str();
-    addPractices(*command, arguments->experiment);
+    addPracticesOption(*command, arguments->experiment.learning.exploration);
   }
 }
 

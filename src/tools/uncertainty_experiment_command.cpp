@@ -150,8 +150,7 @@ void addUncertaintyExperiment(CLI::App& experiment, Run& run) {
       "at sigma points, for the mean alone, and by chance constraints: re-plans, pushes, path "
       "length, time, contacts, and their differences task by task (95 % bootstrap intervals)");
   addCommonOptions(*command, arguments->common);
-  command->add_option("--object", options.object, "Object by name or URDF file")
-      ->capture_default_str();
+  addObjectOption(*command, options.object);
   command->add_option("--tasks", options.tasks, "Tasks for each way")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
@@ -174,11 +173,9 @@ void addUncertaintyExperiment(CLI::App& experiment, Run& run) {
       ->capture_default_str();
   command->add_option("--density", options.room_density, "Share of the floor under furniture")
       ->capture_default_str();
-  command->add_option("--jobs", options.jobs, "Threads; the result does not depend on it")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  addJobsOption(*command, options.jobs);
   addCasterModelOption(*command, arguments->caster_model);
-  command->callback([arguments, &run] { run = [arguments] { return uncertainty(*arguments); }; });
+  setWork(*command, run, arguments, uncertainty);
 }
 
 }  // namespace casepush

@@ -47,10 +47,8 @@ void addWorldCommand(CLI::App& app, Run& run) {
   CLI::App* command = world->add_subcommand(
       "generate", "Write a cluttered room in which the object can be pushed from start to goal");
   addCommonOptions(*command, arguments->common);
-  command->add_option("--object", arguments->room.object, "Object by name or URDF file")
-      ->capture_default_str();
-  command->add_option("--robot", arguments->room.robot, "Robot by name or URDF file")
-      ->capture_default_str();
+  addObjectOption(*command, arguments->room.object);
+  addRobotOption(*command, arguments->room.robot);
   command->add_option("--size", arguments->room.size_m, "Edge length of the room [m]")
       ->capture_default_str();
   command->add_option("--density", arguments->room.density, "Share of the floor under furniture")
@@ -59,7 +57,7 @@ void addWorldCommand(CLI::App& app, Run& run) {
                     "A wall with two doors between start and goal: a chair and a cart stand in the "
                     "near one, the far one is open");
   command->add_option("--output", arguments->output, "World file to write (.yaml)")->required();
-  command->callback([arguments, &run] { run = [arguments] { return generate(*arguments); }; });
+  setWork(*command, run, arguments, generate);
 }
 
 }  // namespace casepush

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "casepush/execution/execute_push.h"
 #include "casepush/execution/push_task.h"
@@ -61,20 +62,43 @@ class Activity {
   virtual void finish(ActivityEnd end, const std::string& explanation, double now_s) = 0;
 };
 
+/// An activity that is one behaviour, asked for by the goal of one action.
+template <typename GoalHandle, typename Work>
+class GoalActivity : public Activity {
+ public:
+  Tick tick(const Observation& observation) override {
+    if (!start_stamp_s_) start_stamp_s_ = observation.stamp_s;
+    return work_.tick(observation);
+  }
+  void cancel() override { work_.cancel(); }
+  std::string goalId() const override { return goal_.getGoalID().id; }
+  std::string describe() const override { return work_.describe(); }
+
+ protected:
+  /// @param work  A member of the derived class, which may not have been made yet.
+  GoalActivity(GoalHandle goal, Work& work) : goal_(std::move(goal)), work_(work) {}
+
+  const std::optional<double>& startStamp() const { return start_stamp_s_; }
+  /// Since the first tick [s].
+  double duration(double now_s) const { return start_stamp_s_ ? now_s - *start_stamp_s_ : 0.0; }
+
+  GoalHandle goal_;
+
+ private:
+  Work& work_;
+  std::optional<double> start_stamp_s_;
+};
+
 using PushObjectServer = actionlib::ActionServer<PushObjectAction>;
 using ExecutePushServer = actionlib::ActionServer<ExecutePushAction>;
 
 /// The action push_object.
-class PushObjectActivity : public Activity {
+class PushObjectActivity : public GoalActivity<PushObjectServer::GoalHandle, PushTask> {
  public:
   /// @param sink  Called for each push.
   PushObjectActivity(PushObjectServer::GoalHandle goal, PushTaskGoal task_goal, RobotModel robot,
                      PushTaskServices services, PushTaskOptions options, ReportSink sink);
 
-  Tick tick(const Observation& observation) override;
-  void cancel() override;
-  std::string goalId() const override;
-  std::string describe() const override;
   ExecutorState state() const override;
   void publishFeedback() override;
   std::optional<TaskSummary> summary(ActivityEnd end, const std::string& explanation,
@@ -85,29 +109,22 @@ class PushObjectActivity : public Activity {
   PushTaskServices withReports(PushTaskServices services, ReportSink sink);
   PushObjectResult result(ActivityEnd end, const std::string& explanation, double now_s) const;
 
-  PushObjectServer::GoalHandle goal_;
   PushTaskGoal task_goal_;
   PushTask task_;
-  double start_stamp_s_ = -1.0;
   double last_t_squared_ = 0.0;
   std::size_t reported_replans_ = 0;
 };
 
 /// The action execute_push.
-class ExecutePushActivity : public Activity {
+class ExecutePushActivity : public GoalActivity<ExecutePushServer::GoalHandle, ExecutePush> {
  public:
   ExecutePushActivity(ExecutePushServer::GoalHandle goal, ExecutePush push, ReportSink sink);
 
-  Tick tick(const Observation& observation) override;
-  void cancel() override;
-  std::string goalId() const override;
-  std::string describe() const override;
   ExecutorState state() const override;
   void publishFeedback() override;
   void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
 
  private:
-  ExecutePushServer::GoalHandle goal_;
   ExecutePush push_;
   ReportSink sink_;
 };

@@ -16,7 +16,7 @@ namespace casepush {
 using RearrangeServer = actionlib::ActionServer<RearrangeAction>;
 
 /// The action rearrange.
-class RearrangeActivity : public Activity {
+class RearrangeActivity : public GoalActivity<RearrangeServer::GoalHandle, Rearrange> {
  public:
   using OnReport = std::function<void(const PushReport&)>;
   /// Makes a task that calls `on_report` for each push.
@@ -29,9 +29,6 @@ class RearrangeActivity : public Activity {
                     RearrangeServices services, TaskMaker make_task, ReportSink sink);
 
   Tick tick(const Observation& observation) override;
-  void cancel() override;
-  std::string goalId() const override;
-  std::string describe() const override;
   ExecutorState state() const override;
   void publishFeedback() override;
   void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
@@ -40,11 +37,9 @@ class RearrangeActivity : public Activity {
   RearrangeServices complete(RearrangeServices services, TaskMaker make_task, ReportSink sink);
   RearrangedObject resultOf(std::size_t index) const;
 
-  RearrangeServer::GoalHandle goal_;
   RearrangeRequest request_;
   Rearrange rearrange_;
   Observation last_;
-  double start_stamp_s_ = -1.0;
 };
 
 }  // namespace casepush

@@ -4,7 +4,7 @@
 
 namespace casepush {
 
-/// To the last bit: two pushes never agree in that.
+/// The same pose to the last bit: poses of different observations never agree in that.
 inline bool isSame(const Pose2& a, const Pose2& b) {
   return a.x() == b.x() && a.y() == b.y() && a.yaw() == b.yaw();
 }
