@@ -100,9 +100,10 @@ void ExecutorNode::onRearrange(RearrangeServer::GoalHandle goal) {
 
 ApproachPlanner ExecutorNode::approach(const std::string& object_id) const {
   // The planner is kept alive by the lambda, should a new map come while it drives.
-  const auto plan = approachPlanner(*checker_, object_id);
-  return [plan, checker = checker_](const Observation& observation, const Pose2& goal,
-                                    double dock_direction_rad) {
+  const std::shared_ptr<const PushPlanner> planner = map_.planner();
+  const auto plan = approachPlanner(*planner, object_id);
+  return [plan, planner](const Observation& observation, const Pose2& goal,
+                         double dock_direction_rad) {
     const std::optional<RobotPath> there = pathIfThere(observation.map_T_robot, goal);
     return there ? *there : plan(observation, goal, dock_direction_rad);
   };

@@ -35,6 +35,7 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
     : parameters_(std::move(parameters)),
       handle_(handle),
       listener_(buffer_, handle, false, ros::TransportHints().tcpNoDelay()),
+      map_(parameters_.furnishing, parameters_.planner, handle),
       guard_(parameters_.furnishing.robot.limits, parameters_.task.push.stale_robot_s,
              parameters_.stale_objects_s),
       plans_(handle),
@@ -61,8 +62,6 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
       handle_.advertise<TaskSummary>(names::kTaskSummaries.name, names::kTaskSummaries.queue_size);
   state_ = handle_.advertise<ExecutorState>(names::kExecutorState.name,
                                             names::kExecutorState.queue_size, true);
-  octomap_subscriber_ = handle_.subscribe(names::kOctomap.name, names::kOctomap.queue_size,
-                                          &ExecutorNode::onOctomap, this);
   cases_subscriber_ =
       handle_.subscribe(names::kCases.name, names::kCases.queue_size, &ExecutorNode::onCases, this);
   objects_subscriber_ =
@@ -79,18 +78,6 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
   push_object_.start();
   execute_push_.start();
   rearrange_.start();
-}
-
-void ExecutorNode::onOctomap(const Octomap& message) {
-  try {
-    auto map = std::make_shared<const Map>(fromMessage(message));
-    checker_ = checker_ != nullptr ? checker_->updated(std::move(map))
-                                   : std::make_unique<PushPlanner>(
-                                         std::move(map), parameters_.furnishing.robot,
-                                         parameters_.furnishing.models, parameters_.planner);
-  } catch (const InputError& error) {
-    ROS_ERROR("map ignored: %s", error.what());
-  }
 }
 
 void ExecutorNode::onCases(const PushCaseArray& message) {
@@ -144,7 +131,7 @@ void ExecutorNode::checkTicks() {
 }
 
 std::string ExecutorNode::whatIsMissing() const {
-  if (checker_ == nullptr) {
+  if (map_.planner() == nullptr) {
     return "there is no map yet (topic map/octomap)";
   }
   try {

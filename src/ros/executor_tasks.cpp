@@ -81,12 +81,12 @@ RearrangeRequest ExecutorNode::rearrangeRequest(const RearrangeGoal& goal) const
 
 PushTaskServices::InTheWay ExecutorNode::inTheWay() const {
   return [this](const PushPlan& plan, const std::vector<PlacedObject>& objects) {
-    return checker_->inTheWay(plan, *cases_, objects);
+    return map_.planner()->inTheWay(plan, *cases_, objects);
   };
 }
 
 PushTaskServices ExecutorNode::taskServices(const std::string& object_id) {
-  const PlannerSource planner = [this] { return checker_; };
+  const PlannerSource planner = [this] { return map_.planner(); };
   PushTaskServices services;
   services.plans = &plans_;
   services.cases = [this] { return cases_; };

@@ -31,6 +31,7 @@ PlannerNode::PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handl
     : parameters_(std::move(parameters)),
       handle_(handle),
       listener_(buffer_),
+      planner_(parameters_.furnishing, parameters_.planner),
       server_(handle, names::kPlanPushAction,
               [this](const PlanPushGoalConstPtr& goal) { onGoal(goal); }),
       diagnostics_(handle, "planner", [this](auto& status) { reportDiagnostics(status); }) {
@@ -45,29 +46,14 @@ PlannerNode::PlannerNode(PlannerNodeParameters parameters, ros::NodeHandle handl
                                           ros::TransportHints().tcpNoDelay());
   maps_ = std::make_unique<MapSource>(
       parameters_.map, parameters_.furnishing, handle_, buffer_,
-      [this](std::shared_ptr<const Map> map) { setMap(std::move(map)); });
+      [this](std::shared_ptr<const Map> map) { planner_.setMap(std::move(map)); });
   server_.start();
-}
-
-void PlannerNode::setMap(std::shared_ptr<const Map> map) {
-  std::shared_ptr<const PushPlanner> before;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    before = planner_;
-  }
-  std::shared_ptr<const PushPlanner> planner =
-      before != nullptr
-          ? before->updated(std::move(map))
-          : std::make_unique<PushPlanner>(std::move(map), parameters_.furnishing.robot,
-                                          parameters_.furnishing.models, parameters_.planner);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  planner_ = std::move(planner);
 }
 
 std::shared_ptr<const PushPlanner> PlannerNode::plannerFor(const PlanPushGoal& goal) {
   const PushPlannerOptions options = withSearch(parameters_.planner, searchOf(goal));
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return planner_ == nullptr ? nullptr : planner_->withOptions(options);
+  const std::shared_ptr<const PushPlanner> planner = planner_.get();
+  return planner == nullptr ? nullptr : planner->withOptions(options);
 }
 
 void PlannerNode::onCases(const PushCaseArray& message) {
@@ -168,7 +154,7 @@ void PlannerNode::show(const PlanResult& result, const std::vector<Case>& cases)
 
 void PlannerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (planner_ == nullptr) {
+  if (planner_.get() == nullptr) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no map yet");
   } else if (cases_->empty()) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no cases yet");

@@ -5,14 +5,17 @@ counts."""
 
 import bisect
 import contextlib
+import pathlib
+import subprocess
 import sys
+import tempfile
 
 import rospy
 import rostest
 
 import drill
 import harness
-from casepush.msg import BodyContactArray, ExecutePushGoal
+from casepush.msg import BodyContactArray, ExecutePushGoal, Octomap
 
 # Within this time after the event nothing but zero is commanded any more.
 REACTION_S = 0.2
@@ -24,6 +27,37 @@ BLIND_PUSH_S = 0.3
 # For the scheduling of a busy machine.
 SLACK_S = 0.1
 TRIES = 4
+# A watchdog stops the base if ticks cease for 0.12 s.
+MOST_SILENT_S = 0.1
+# A large map: a hall with pillars, which fill a twentieth of it.
+HALL_M = 50
+PILLARS_EVERY_M = 1.0
+RESOLUTION_M = 0.05
+
+
+def large_map():
+    """As planner_node would publish it."""
+    cells = int(HALL_M / RESOLUTION_M)
+    every = int(PILLARS_EVERY_M / RESOLUTION_M)
+    # No pillars around the origin, where the tests are.
+    free = range(cells // 2 - 6 * every, cells // 2 + 6 * every)
+    rows = bytearray()
+    for y in range(cells):
+        rows += bytes(0 if x % every < 4 and y % every < 5 and not (x in free and y in free)
+                      else 255 for x in range(cells))
+    with tempfile.TemporaryDirectory() as folder:
+        hall = pathlib.Path(folder)
+        (hall / "hall.pgm").write_bytes(b"P5 %d %d 255\n" % (cells, cells) + rows)
+        (hall / "hall.yaml").write_text(
+            f"image: hall.pgm\nresolution: {RESOLUTION_M}\norigin: [{-HALL_M / 2}, "
+            f"{-HALL_M / 2}, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n")
+        subprocess.run([harness.node_path("casepush"), "map", "convert", hall / "hall.yaml",
+                        hall / "hall.bt"], check=True, capture_output=True)
+        data = (hall / "hall.bt").read_bytes().split(b"data\n", 1)[1]
+    message = Octomap(binary=True, id="OcTree", resolution=RESOLUTION_M)
+    message.header.frame_id = "map"
+    message.data = [byte - 256 if byte > 127 else byte for byte in data]
+    return message
 
 
 class StopTimesTest(drill.Drill):
@@ -130,6 +164,27 @@ class StopTimesTest(drill.Drill):
     def test_when_something_unknown_is_in_the_way(self):
         self.expect_stop(self.drive_into_the_box, lambda: None)
         self.assertIn("holds the robot", harness.result_of(self.execute_push).explanation)
+
+    def test_goes_on_when_a_large_map_comes(self):
+        usual, large = self.map.last(), large_map()
+        maps = rospy.Publisher("map/octomap", Octomap, queue_size=1)
+        harness.wait_until(lambda: maps.get_num_connections() >= 3, what="the nodes to listen")
+        for _ in range(TRIES):
+            self.push()
+            event_s = self.now()
+            maps.publish(large)
+            harness.wait_until(lambda: self.now() > event_s + 0.8, what="time to pass")
+            commands = self.commands.all()
+            gap_s = max(b - a for (a, _), (b, _) in zip(commands, commands[1:]))
+            stops = sum(harness.is_zero(m) for _, m in commands)
+            rospy.loginfo("%s: no command for %.2f s, %d times zero", self._testMethodName, gap_s,
+                          stops)
+            self.tearDown()
+            maps.publish(usual)
+            self.setUp()
+            if stops == 0 and gap_s < MOST_SILENT_S:
+                return
+        self.fail(f"no command for {gap_s:.2f} s, {stops} times zero")
 
 
 if __name__ == "__main__":

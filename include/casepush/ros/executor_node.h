@@ -1,7 +1,6 @@
 #pragma once
 
 #include <casepush/ExecutedPush.h>
-#include <casepush/Octomap.h>
 #include <casepush/PushCaseArray.h>
 #include <casepush/PushableObjectArray.h>
 #include <casepush/TaskSummary.h>
@@ -23,6 +22,7 @@
 #include "casepush/ros/activity.h"
 #include "casepush/ros/command_guard.h"
 #include "casepush/ros/diagnostics.h"
+#include "casepush/ros/map_follower.h"
 #include "casepush/ros/node_parameters.h"
 #include "casepush/ros/rearrange_activity.h"
 #include "casepush/ros/watchdog.h"
@@ -42,7 +42,6 @@ class ExecutorNode {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  void onOctomap(const Octomap& message);
   void onCases(const PushCaseArray& message);
   void onObjects(const PushableObjectArray& message);
   void onOdometry(const nav_msgs::Odometry& message);
@@ -88,7 +87,7 @@ class ExecutorNode {
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
 
-  std::shared_ptr<const PushPlanner> checker_;  ///< Null until there is a map.
+  MapFollower map_;
   std::shared_ptr<const std::vector<Case>> cases_ = std::make_shared<const std::vector<Case>>();
   std::vector<ObjectState> objects_;
   double objects_stamp_s_ = -1e9;
@@ -114,7 +113,6 @@ class ExecutorNode {
   ros::Publisher reports_;
   ros::Publisher summaries_;
   ros::Publisher state_;
-  ros::Subscriber octomap_subscriber_;
   ros::Subscriber cases_subscriber_;
   ros::Subscriber objects_subscriber_;
   ros::Subscriber odometry_subscriber_;

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <vector>
 
-#include "casepush/planning/push_planner.h"
+#include "casepush/ros/current_planner.h"
 #include "casepush/ros/diagnostics.h"
 #include "casepush/ros/goal_server.h"
 #include "casepush/ros/map_source.h"
@@ -33,7 +33,6 @@ class PlannerNode {
   void onCases(const PushCaseArray& message);
   void onObjects(const PushableObjectArray& message);
   void onGoal(const PlanPushGoalConstPtr& goal);
-  void setMap(std::shared_ptr<const Map> map);
 
   /// Completes a goal: goal pose in the map frame, current state unless it is given.
   PlanRequest request(const PlanPushGoal& goal);
@@ -49,8 +48,8 @@ class PlannerNode {
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
 
+  CurrentPlanner planner_;
   std::mutex mutex_;  ///< Guards what the callbacks write and the action's thread reads.
-  std::shared_ptr<const PushPlanner> planner_;  ///< On the newest map; null before there is one.
   std::shared_ptr<const std::vector<Case>> cases_ = std::make_shared<const std::vector<Case>>();
   PushableObjectArray objects_;
   PlanResult last_result_;
