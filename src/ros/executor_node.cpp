@@ -221,9 +221,11 @@ Twist2 ExecutorNode::safeCommand(const Observation& observation, const Twist2& w
   const CommandGuard::Verdict verdict =
       guard_.judge(wanted, observation.stamp_s - observation.robot_stamp_s,
                    observation.stamp_s - objects_stamp_s_);
-  if (!verdict.reason.empty()) {
-    ++overridden_commands_;
-    ROS_WARN_THROTTLE(1.0, "the base is told to stand: %s", verdict.reason.c_str());
+  overridden_commands_ += verdict.reason.empty() ? 0 : 1;
+  const std::string line =
+      stands_.add(observation.stamp_s, ros::SteadyTime::now().toSec(), verdict.reason);
+  if (!line.empty()) {
+    ROS_WARN("%s", line.c_str());
   }
   return verdict.twist;
 }

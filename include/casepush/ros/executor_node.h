@@ -25,6 +25,7 @@
 #include "casepush/ros/map_follower.h"
 #include "casepush/ros/node_parameters.h"
 #include "casepush/ros/rearrange_activity.h"
+#include "casepush/ros/stand_tally.h"
 #include "casepush/ros/watchdog.h"
 
 namespace casepush {
@@ -108,6 +109,7 @@ class ExecutorNode {
   std::string last_end_;  ///< How the last activity ended.
   std::uint32_t report_count_ = 0;
   int overridden_commands_ = 0;
+  StandTally stands_;
 
   ros::Publisher command_;
   ros::Publisher reports_;
