@@ -59,10 +59,13 @@ void LiveMapper::onObjects(const PushableObjectArray& message) {
   try {
     const std::vector<ObjectState> objects = fromMessage(message);
     const std::lock_guard<std::mutex> lock(mutex_);
-    map_.observe(objects);
+    const int cleared = map_.observe(objects).cells;
+    changed_cells_ += cleared;
+    is_urgent_ = is_urgent_ || cleared > 0;
   } catch (const InputError& error) {
     ROS_ERROR_THROTTLE(1.0, "objects ignored: %s", error.what());
   }
+  publishIfDue();
 }
 
 void LiveMapper::onScan(const sensor_msgs::PointCloud2ConstPtr& message) {
@@ -125,9 +128,11 @@ void LiveMapper::publishIfDue() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const int periods = changed_cells_ >= kFewCells ? 1 : kPatientPeriods;
-    if (changed_cells_ == 0 || waited_s < periods * parameters_.live_publish_period_s) return;
+    const bool is_due = is_urgent_ || waited_s >= periods * parameters_.live_publish_period_s;
+    if (changed_cells_ == 0 || !is_due) return;
     copy = map_.map().copy();
     changed_cells_ = 0;
+    is_urgent_ = false;
   }
   last_change_ = now;
   on_change_(std::move(*copy));

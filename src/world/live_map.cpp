@@ -117,7 +117,7 @@ LiveMap::LiveMap(Map start, const RobotModel& robot,
   }
 }
 
-void LiveMap::observe(const std::vector<ObjectState>& objects) {
+MapChange LiveMap::observe(const std::vector<ObjectState>& objects) {
   for (const ObjectState& object : objects) {
     if (models_.count(object.model) == 0) continue;
     Track& track = tracks_[object.id];
@@ -126,6 +126,7 @@ void LiveMap::observe(const std::vector<ObjectState>& objects) {
     if (!track.places.empty() && object.stamp_s < track.places.back().stamp_s - kMostPrediction_s) {
       track.places.clear();
     }
+    track.moving = object.moving;
     track.twist = object.moving ? object.twist : Twist2();
     if (track.places.empty() ||
         !isSamePlace(track.places.back().map_T_object, object.map_T_object)) {
@@ -139,6 +140,7 @@ void LiveMap::observe(const std::vector<ObjectState>& objects) {
       track.places.pop_front();
     }
   }
+  return clearObjects(Clear::kResting);
 }
 
 std::vector<LiveMap::Mask> LiveMap::masksAt(double stamp_s, const Pose2& map_T_robot) const {
@@ -191,10 +193,10 @@ SensorRay LiveMap::rayTo(const Eigen::Vector3f& map_origin, const Eigen::Vector3
   return ray;
 }
 
-MapChange LiveMap::clearObjects() {
+MapChange LiveMap::clearObjects(Clear which) {
   MapChange change;
   for (auto& [id, track] : tracks_) {
-    if (track.cleared) continue;
+    if (track.cleared || (track.moving && which == Clear::kResting)) continue;
     track.cleared = true;
     const Body& body = models_.at(track.model);
     const Pose2& map_T_object = track.places.back().map_T_object;
@@ -230,7 +232,7 @@ LiveMap::Integration LiveMap::integrate(const RangeScan& scan,
     rays.push_back(ray);
   }
   result.change = map_.addRays(origin, rays);
-  result.change.extend(clearObjects());
+  result.change.extend(clearObjects(Clear::kAll));
   return result;
 }
 

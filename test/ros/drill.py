@@ -1,5 +1,6 @@
 """What the fault drills share: a task under way, a fault, and what must be true afterwards."""
 
+import collections
 import contextlib
 import math
 import os
@@ -12,7 +13,7 @@ from nav_msgs.msg import Odometry
 
 import fault_relay
 import harness
-from casepush.msg import PushObjectGoal, PushObjectResult
+from casepush.msg import ExecutedPush, PushObjectGoal, PushObjectResult, TaskSummary
 from casepush.srv import ImportCases
 from pushing import PushingTest, speeds
 
@@ -23,6 +24,10 @@ MAX_SPEED_MPS = 0.5
 MAX_TURN_RPS = 1.0
 # Of simulated time, within which every task has to end, whatever happens to it.
 TIME_LIMIT_S = 240.0
+# Outcomes of pushes that were made.
+EXECUTED = (ExecutedPush.DONE, ExecutedPush.NOT_MOVED, ExecutedPush.BROKEN_OFF)
+STATUS_NAMES = {value: name.lower() for name, value in vars(PushObjectResult).items()
+                if name.isupper() and isinstance(value, int)}
 
 
 def moves(twist):
@@ -70,8 +75,8 @@ class Drill(PushingTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.relay = fault_relay.FaultRelay()
-        cls.relay.scans_frozen = True
         cls.motion = harness.Recorder("raw/odom", Odometry)
+        cls.summaries = harness.Recorder("task_summaries", TaskSummary)
         cls.await_nodes()
         importer = rospy.ServiceProxy("cases/import", ImportCases)
         importer.wait_for_service(30.0)
@@ -88,12 +93,8 @@ class Drill(PushingTest):
 
     def setUp(self):
         self.relay.mend()
-        # Or a live map would show the chair where it was put before it was seen there.
-        self.relay.scans_frozen = True
         self.set_scene(box_1=(4.4, 4.4, 0.0))
-        self.relay.scans_frozen = False
         self.motion.clear()
-        self.reports.clear()
 
     def tearDown(self):
         self.relay.mend()
@@ -106,6 +107,8 @@ class Drill(PushingTest):
         self.place(robot=(-2.7, 0.2, 0.0), box_1=(-1.8, 0.2, math.pi / 2))
 
     def start_task(self, x_m=1.2, y_m=0.8, yaw_rad=0.5):
+        self.reports.clear()
+        self.summaries.clear()
         self.start(self.push_object, PushObjectGoal(
             object_id=harness.OBJECT, goal=harness.pose(x_m, y_m, yaw_rad), seed=1, adapt=True,
             time_limit=TIME_LIMIT_S))
@@ -130,7 +133,38 @@ class Drill(PushingTest):
         self.assertIn(result.status, statuses or [PushObjectResult.SUCCEEDED], result.explanation)
         if result.status != PushObjectResult.SUCCEEDED:
             self.assertIn(explanation, result.explanation)
+        self.expect_summary(result)
         return result.status
+
+    def expect_summary(self, result):
+        """The record of the task says the same as its result and the reports of its pushes."""
+        summary = self.summaries.wait()
+        goal = self.push_object.gh.comm_state_machine.action_goal
+        self.assertEqual((summary.goal_id, summary.object_id),
+                         (goal.goal_id.id, goal.goal.object_id))
+        self.assertEqual(summary.status, STATUS_NAMES[result.status])
+        for field in ("explanation", "position_error", "yaw_error", "plan_length", "plans",
+                      "pushes", "clearing_pushes", "rejected_predictions"):
+            self.assertEqual(getattr(summary, field), getattr(result, field), field)
+        self.assertEqual(len(summary.replan_causes), result.replans)
+        self.assertEqual(len(summary.replan_reasons), result.replans)
+        if not summary.start_stamp.is_zero():
+            self.assertAlmostEqual((summary.header.stamp - summary.start_stamp).to_sec(),
+                                   result.duration, places=6)
+        self.expect_pushes(summary)
+
+    def expect_pushes(self, summary):
+        """Of the summary, as reported one by one."""
+        reports = [m for _, m in self.reports.all()]
+        executed = [m for m in reports if m.outcome in EXECUTED]
+        of_plans = collections.Counter(m.plan_number for m in executed)
+        self.assertEqual([of_plans[number] for number in sorted(of_plans)],
+                         [count for count in summary.pushes_of_plans if count > 0])
+        self.assertEqual(len(executed), summary.pushes)
+        self.assertEqual(sum(m.rejected for m in reports), summary.rejected_predictions)
+        told = [m.replan_cause for m in reports if m.replan_cause]
+        left = iter(summary.replan_causes)
+        self.assertTrue(all(cause in left for cause in told), (told, summary.replan_causes))
 
     def expect_next_task_succeeds(self):
         self.await_nodes()
@@ -161,11 +195,23 @@ class Drill(PushingTest):
         if is_told_to and self.commands.all():
             self.assertTrue(harness.is_zero(self.commands.last()))
 
-    def case_counts(self):
-        """How many cases and observations are stored, if the file is intact."""
+    def stored(self, query):
+        """Rows of the case base."""
         with contextlib.closing(sqlite3.connect(f"file:{self.case_base}?mode=ro",
                                                 uri=True)) as database:
-            self.assertEqual(database.execute("PRAGMA integrity_check").fetchall(), [("ok",)])
-            self.assertEqual(database.execute("PRAGMA foreign_key_check").fetchall(), [])
-            return [database.execute(f"SELECT COUNT(*) FROM {table}").fetchone()[0]
-                    for table in ("cases", "outcomes")]
+            return database.execute(query).fetchall()
+
+    def case_counts(self):
+        """How many cases and observations are stored, if the file is intact."""
+        self.assertEqual(self.stored("PRAGMA integrity_check"), [("ok",)])
+        self.assertEqual(self.stored("PRAGMA foreign_key_check"), [])
+        return [self.stored(f"SELECT COUNT(*) FROM {table}")[0][0]
+                for table in ("cases", "outcomes")]
+
+    def observations(self):
+        """What each case was learnt from, as told circumstances have it, by id."""
+        rows = collections.defaultdict(list)
+        for case, *row in self.stored("SELECT case_id, x_m, y_m, yaw_rad, stamp_s FROM outcomes "
+                                      "WHERE noticed = 0 ORDER BY case_id, number"):
+            rows[case].append(row)
+        return rows

@@ -12,6 +12,9 @@ import harness
 from casepush.msg import ObjectLoad, PushObjectResult
 from casepush.srv import SetLoad
 
+# Of further tasks, should the first have too few pushes to notice a load by.
+MORE_GOALS = ((-1.0, -0.8, -2.0), (1.2, 0.8, 0.5), (-1.0, -0.8, -2.0))
+
 
 class DrillWorldTest(drill.Drill):
 
@@ -45,18 +48,32 @@ class DrillWorldTest(drill.Drill):
         self.finish_task(PushObjectResult.NO_PROGRESS, PushObjectResult.NO_PLAN,
                          PushObjectResult.TIMEOUT)
 
+    def sources_of_noticed(self):
+        """The cases that there are copies of for a change that pushes gave away."""
+        return {row[0] for row in self.stored("SELECT source_id FROM cases WHERE noticed > 0")}
+
     def test_somebody_sits_down(self):
         set_load = rospy.ServiceProxy("sim/set_load", SetLoad)
         load = ObjectLoad(id=harness.OBJECT, mass=40.0, centre=Point(0.0, 0.0, 0.0))
+        originals = self.observations()
+        self.assertEqual(self.sources_of_noticed(), set())
         self.start_task()
         self.wait_phase("push")
         answer = set_load(load)
         self.assertTrue(answer.success, answer.message)
         try:
             self.finish_task()
+            for goal in MORE_GOALS:
+                if not self.sources_of_noticed():
+                    self.start_task(*goal)
+                    self.finish_task()
         finally:
             load.mass = 0.0
             set_load(load)
+        self.assertTrue(self.sources_of_noticed(), "nobody noticed the load")
+        self.assertLessEqual(self.sources_of_noticed(), originals.keys())
+        for case, before in originals.items():
+            self.assertEqual(self.observations()[case][:len(before)], before)
 
 
 if __name__ == "__main__":

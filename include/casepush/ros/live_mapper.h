@@ -27,7 +27,8 @@ class LiveMapper {
   using OnChange = std::function<void(Map)>;
 
   /// @param on_change  Called from the mapper's thread with a copy when the map has changed, at
-  ///   most every `publish_period_s`. @pre `buffer` outlives this.
+  ///   most every `publish_period_s`; at once if it held what turns out to be an object, which
+  ///   nobody could plan with. @pre `buffer` outlives this.
   LiveMapper(const MapParameters& parameters, const Furnishing& furnishing, ros::NodeHandle handle,
              const tf2_ros::Buffer& buffer, OnChange on_change);
   ~LiveMapper();
@@ -66,7 +67,8 @@ class LiveMapper {
   Counts reported_;
   double last_scan_s_ = 0.0;  ///< Time that the last scan took.
   double longest_scan_s_ = 0.0;
-  int changed_cells_ = 0;  ///< Since the last call of on_change_.
+  int changed_cells_ = 0;   ///< Since the last call of on_change_.
+  bool is_urgent_ = false;  ///< The map held what is known to be an object.
 
   Clock::time_point next_scan_{};
   Clock::time_point last_change_{};

@@ -28,7 +28,8 @@ struct LiveMapOptions {
 ///
 /// Every beam frees the cells along it and fills the one where it ends, unless that lies on a known
 /// object or on the robot: these are masked out, so that furniture never becomes part of the map.
-/// What an object left behind in the map before it was known is removed when it is first seen.
+/// What an object left behind in the map before it was known to be there is removed as soon as it
+/// is.
 /// Cost of a scan: proportional to its beams' length in cells; see docs/worlds.md.
 /// Thread safety: none.
 class LiveMap {
@@ -39,8 +40,9 @@ class LiveMap {
 
   /// Tracked poses; those of unknown models are passed over. An object that is no longer among
   /// them is assumed to stand where it was last.
+  /// @return  What an object at rest had left in the map where it stands, and is removed now.
   /// @pre finite poses.
-  void observe(const std::vector<ObjectState>& objects);
+  MapChange observe(const std::vector<ObjectState>& objects);
 
   struct Integration {
     int hits = 0;    ///< Beams that ended at something static.
@@ -65,6 +67,7 @@ class LiveMap {
     std::string model;
     std::deque<Place> places;  ///< Oldest first; the last is the newest.
     Twist2 twist;
+    bool moving = false;
     bool cleared = false;  ///< Nothing of the map is left where it stands.
   };
   struct Mask;
@@ -76,7 +79,9 @@ class LiveMap {
   std::vector<Mask> masksAt(double stamp_s, const Pose2& map_T_robot) const;
   SensorRay rayTo(const Eigen::Vector3f& map_origin, const Eigen::Vector3f& map_point,
                   const std::vector<Mask>& masks, Integration* result) const;
-  MapChange clearObjects();
+  enum class Clear { kResting, kAll };
+  /// Where the map has not been cleared of them yet.
+  MapChange clearObjects(Clear which);
 
   Map map_;
   LiveMapOptions options_;
