@@ -1,6 +1,8 @@
 #include "casepush/ros/perception_node.h"
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
+#include <functional>
 #include <utility>
 
 #include "casepush/common/input_error.h"
@@ -13,10 +15,21 @@ namespace casepush {
 namespace {
 
 constexpr double kSilentPeriodS = 0.04;  // Publish at least this often: poses move, ages grow.
-constexpr double kMinimumPeriodS = 0.015;
 constexpr double kMarkerPeriodS = 0.2;
 constexpr double kFadedAfterS = 1.0;
 constexpr std::uint32_t kFilterQueue = 100;
+
+class Call : public ros::CallbackInterface {
+ public:
+  explicit Call(std::function<void()> work) : work_(std::move(work)) {}
+  CallResult call() override {
+    work_();
+    return Success;
+  }
+
+ private:
+  std::function<void()> work_;
+};
 
 }  // namespace
 
@@ -50,6 +63,10 @@ PerceptionNode::PerceptionNode(PerceptionNodeParameters parameters, ros::NodeHan
   });
 }
 
+PerceptionNode::~PerceptionNode() {
+  handle_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
+}
+
 double PerceptionNode::now() {
   constexpr double kJumpS = 0.5;
   const double now_s = ros::Time::now().toSec();
@@ -57,6 +74,7 @@ double PerceptionNode::now() {
     ROS_INFO("time jumped back from %.3f s to %.3f s: tracks are forgotten", last_now_s_, now_s);
     tracker_.clear();
     buffer_.clear();
+    newest_image_s_ = -1e9;
     last_published_s_ = -1e9;
     last_markers_s_ = -1e9;
   }
@@ -66,7 +84,7 @@ double PerceptionNode::now() {
 
 void PerceptionNode::onTags(const AprilTagDetectionArray& message) {
   const ros::Time stamp = message.header.stamp;
-  const double now_s = std::max(stamp.toSec(), now());
+  now();
   ++frames_;
   try {
     const Pose2 map_T_robot = planarPose(
@@ -83,9 +101,20 @@ void PerceptionNode::onTags(const AprilTagDetectionArray& message) {
     ROS_WARN_THROTTLE(1.0, "tag_detections: image left out: %s", error.what());
     return;
   }
-  if (now_s - last_published_s_ >= kMinimumPeriodS) {
-    publish(now_s);
+  newest_image_s_ = stamp.toSec();
+  publishSoon();
+}
+
+void PerceptionNode::publishSoon() {
+  if (will_publish_) {
+    return;
   }
+  will_publish_ = true;
+  handle_.getCallbackQueue()->addCallback(boost::make_shared<Call>([this] {
+                                            will_publish_ = false;
+                                            publish(std::max(newest_image_s_, now()));
+                                          }),
+                                          reinterpret_cast<std::uint64_t>(this));
 }
 
 void PerceptionNode::publish(double now_s) {

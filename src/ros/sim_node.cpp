@@ -20,14 +20,15 @@ constexpr int kTruthEvery = 5;  // Ground truth at 10 Hz keeps bags small.
 // that was to move: nobody leaves a robot moving, so it is only late.
 constexpr double kCommandedS = 0.25;
 constexpr double kMovingS = 1.0;
-// Tracked poses may lag this far behind without holding up the world. Perception counts as present
+// Tracked poses may lag this far behind without holding up the world, if they came after the last
+// images. Perception counts as present
 // for longer than the executor waits for it: otherwise that time would pass in a moment.
 constexpr double kTrackingLagS = 0.07;
 constexpr double kTrackedS = 3.0;
-// At full speed: never slower than real time for a slow controller, and some rest for the other
-// nodes while nobody commands.
-constexpr double kWaitCommandedS = kControlPeriodS;
-constexpr double kWaitIdleS = 0.001;
+// At full speed: never slower than real time for slow nodes, and some rest for them while nobody
+// commands.
+constexpr double kMostWaitS = kControlPeriodS;
+constexpr double kRestS = 0.001;
 constexpr double kClockPeriodS = 0.1;  // Of wall time, while time stands still.
 
 geometry_msgs::TransformStamped stamped(const std::string& parent, const std::string& child,
@@ -155,6 +156,7 @@ void SimNode::publishMotion() {
 void SimNode::publishSensors() {
   for (const TagFrame& frame : simulator_.takeTagFrames()) {
     tags_.publish(toMessage(frame));
+    images_seen_ = false;
   }
   for (const RangeScan& scan : simulator_.takeScans()) {
     points_.publish(toMessage(scan));
@@ -204,30 +206,32 @@ bool SimNode::isCommanded() const {
   return simulator_.time() - last_command_s_ < (commanded_to_move_ ? kMovingS : kCommandedS);
 }
 
-bool SimNode::nodesKeepUp() const {
+bool SimNode::nodesKeepUp(SteadyClock::time_point rested) const {
   const double lag_s = simulator_.time() - last_objects_s_;
-  return command_arrived_ && (lag_s < kTrackingLagS || lag_s > kTrackedS);
+  const bool is_tracked = lag_s > kTrackedS || (images_seen_ && lag_s < kTrackingLagS);
+  return is_tracked && (isCommanded() ? command_arrived_ : SteadyClock::now() >= rested);
 }
 
 void SimNode::waitForNodes() {
   const bool full_speed = parameters_.real_time_factor <= 0.0;
-  const double wait_s = isCommanded() ? kWaitCommandedS : kWaitIdleS;
   const double elapsed_s = simulator_.time() - pacing_start_s_;
   const auto seconds = [](double s) {
     return std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(s));
   };
+  const SteadyClock::time_point now = SteadyClock::now();
+  const SteadyClock::time_point rested = now + seconds(kRestS);
   const SteadyClock::time_point deadline =
-      full_speed ? SteadyClock::now() + seconds(wait_s)
+      full_speed ? now + seconds(kMostWaitS)
                  : pacing_start_ + seconds(elapsed_s / parameters_.real_time_factor);
+  const double slice_s = full_speed ? kRestS : 0.1;  // Notices a shutdown at a low factor.
   ros::CallbackQueue& queue = *ros::getGlobalCallbackQueue();
   queue.callAvailable();
-  while (ros::ok() && !(full_speed && nodesKeepUp())) {
+  while (ros::ok() && !(full_speed && nodesKeepUp(rested))) {
     const double left_s = std::chrono::duration<double>(deadline - SteadyClock::now()).count();
     if (left_s <= 0.0) {
       break;
     }
-    // Short enough to notice a shutdown at a low real-time factor.
-    queue.callAvailable(ros::WallDuration(std::min(left_s, 0.1)));
+    queue.callAvailable(ros::WallDuration(std::min(left_s, slice_s)));
   }
 }
 

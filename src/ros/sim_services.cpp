@@ -61,6 +61,7 @@ void SimNode::command(const Twist2& robot_twist) {
 
 void SimNode::onObjects(const PushableObjectArray& message) {
   last_objects_s_ = message.header.stamp.toSec();
+  images_seen_ = true;
 }
 
 bool SimNode::onStep(StepSimulation::Request& request, StepSimulation::Response& response) {

@@ -17,11 +17,13 @@
 namespace casepush {
 
 /// Turns tag detections into tracked poses: looks up where the camera was, updates the tracker and
-/// publishes `objects` after each image, and at 25 Hz if no images come.
+/// publishes `objects` as soon as the images that have come are worked off, and at 25 Hz if none
+/// come.
 class PerceptionNode {
  public:
   /// @throws InputError from the tracker.
   PerceptionNode(PerceptionNodeParameters parameters, ros::NodeHandle handle);
+  ~PerceptionNode();
 
  private:
   using TagFilter = tf2_ros::MessageFilter<AprilTagDetectionArray>;
@@ -29,6 +31,8 @@ class PerceptionNode {
   void onTags(const AprilTagDetectionArray& message);
   /// The ROS clock's time; forgets all tracks if it has jumped back.
   double now();
+  /// Once all callbacks have run that are due now: several cameras' images come together.
+  void publishSoon();
   void publish(double now_s);
   void publishMarkers(const std::vector<ObjectState>& states, double now_s);
   void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -46,8 +50,10 @@ class PerceptionNode {
   TagFilter filter_;
   ros::Timer timer_;
   double last_now_s_ = -1e9;
+  double newest_image_s_ = -1e9;  ///< Stamp of the last image.
   double last_published_s_ = -1e9;
   double last_markers_s_ = -1e9;
+  bool will_publish_ = false;
   int frames_ = 0;
   int bad_frames_ = 0;
   Diagnostics diagnostics_;  ///< Last: its timer uses the members above.

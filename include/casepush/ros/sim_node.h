@@ -52,7 +52,7 @@ class SimNode {
   void publishLoads();
   void waitForNodes();
   bool isCommanded() const;
-  bool nodesKeepUp() const;
+  bool nodesKeepUp(SteadyClock::time_point rested) const;
   void restartPacing();
 
   void onObjects(const PushableObjectArray& message);
@@ -86,6 +86,7 @@ class SimNode {
 
   std::int64_t period_ = 0;  ///< Control periods that are over since the start or reset.
   bool command_arrived_ = false;
+  bool images_seen_ = false;  ///< Tracked poses have come since the last images.
   bool commanded_to_move_ = false;
   double last_command_s_ = -1e9;
   double last_objects_s_ = -1e9;
