@@ -13,6 +13,26 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostTests = 6;       // Of a node's cases for one random sample.
 constexpr std::size_t kCheck = 64;  // A push takes so many times as long to check as to look at.
 
+/// Visits the items in ascending order until `visit` says that it is enough; false if it never
+/// does. Spoils them.
+template <typename Visit>
+bool visitAscending(std::vector<std::pair<double, int>>* items, const Visit& visit) {
+  constexpr std::size_t kFew = 32;  // So few are looked through faster than a heap is made.
+  const bool is_heap = items->size() > kFew;
+  if (is_heap) std::make_heap(items->begin(), items->end(), std::greater<>());
+  while (!items->empty()) {
+    const auto least = is_heap ? items->begin() : std::min_element(items->begin(), items->end());
+    if (visit(least->first, least->second)) return true;
+    if (is_heap) {
+      std::pop_heap(items->begin(), items->end(), std::greater<>());
+    } else {
+      *least = items->back();
+    }
+    items->pop_back();
+  }
+  return false;
+}
+
 }  // namespace
 
 // Even a single extension takes long if there are thousands of cases.
@@ -72,17 +92,12 @@ void ExpRrt::weighEdges(int node, const PushStart& start) {
 void ExpRrt::noteBestEdge(int node) {
   const PushStart start(tree_.node(node).map_T_object);
   weighEdges(node, start);
-  std::make_heap(keys_.begin(), keys_.end(), std::greater<>());
-  while (!keys_.empty()) {
-    const auto [key_s, push] = keys_.front();
-    if (!isPointless(node, push, start)) {
-      edges_.push({key_s, node, push});
-      return;
-    }
-    std::pop_heap(keys_.begin(), keys_.end(), std::greater<>());
-    keys_.pop_back();
-  }
-  tree_.close(node);  // Nothing that is left can become cheaper.
+  const bool is_noted = visitAscending(&keys_, [&](double key_s, int push) {
+    const bool is_best = !isPointless(node, push, start);
+    if (is_best) edges_.push({key_s, node, push});
+    return is_best;
+  });
+  if (!is_noted) tree_.close(node);  // Nothing that is left can become cheaper.
 }
 
 // A push to where the object gets in less time, or that cannot be part of a quicker plan, counts as
@@ -173,21 +188,17 @@ int ExpRrt::chooseCase(int node, const Pose2& target) {
     const double d2 = squaredPoseDistance(outcome, target, options_.gyration_radius_m);
     order_.emplace_back(d2, push);
   });
-  // A heap: mostly one of the first few is safe. Where none is, another sample goes on.
+  // Mostly one of the first few is safe. Where none is, another sample goes on.
   int tests = 0;
-  std::make_heap(order_.begin(), order_.end(), std::greater<>());
-  while (!order_.empty() && tests < kMostTests && !mustStop(kCheck)) {
-    const int push = order_.front().second;
-    if (!isPointless(node, push, start)) {
-      if (isSafe(node, push)) {
-        return push;
-      }
-      ++tests;
-    }
-    std::pop_heap(order_.begin(), order_.end(), std::greater<>());
-    order_.pop_back();
-  }
-  return -1;
+  int chosen = -1;
+  visitAscending(&order_, [&](double, int push) {
+    if (tests >= kMostTests || mustStop(kCheck)) return true;
+    if (isPointless(node, push, start)) return false;
+    if (isSafe(node, push)) chosen = push;
+    ++tests;
+    return chosen >= 0;
+  });
+  return chosen;
 }
 
 int ExpRrt::chooseCaseChecked(int node, const Pose2& target) {

@@ -158,7 +158,7 @@ PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
       approaches_(problem, checker->collisions()) {
   rrt_.setProblemDefinition(definition_);
   rrt_.setup();
-  if (problem.options.improvement_extensions > 0 &&
+  if (problem.options.improvement_extensions > 0 && !safety.first_plan_will_do &&
       problem.options.similarity == Similarity::kMetric) {
     const auto get = [this](int push) -> const PreparedCase& { return rrt_.cases()[push]; };
     dead_ends_ = std::make_unique<DeadEndCheck>(
@@ -243,7 +243,7 @@ bool PlanSearch::isCutOff(const SearchClock& clock) const {
 }
 
 void PlanSearch::improve(const SearchClock& clock) {
-  if (problem_.options.similarity == Similarity::kPaper) {
+  if (problem_.options.similarity == Similarity::kPaper || safety_.first_plan_will_do) {
     return;  // Takes the first solution.
   }
   if (improvement_end_ == 0) {

@@ -70,6 +70,16 @@ struct PushPlanner::Data {
                         const std::vector<PlacedSolid>& obstacles) const;
   PlanResult search(const PlanRequest& request, const std::vector<const Case*>& cases,
                     const SearchClock& clock) const;
+
+  /// What came of one level of safety.
+  struct Attempt {
+    PlanResult result;
+    bool is_worth_relaxing = false;  ///< A lesser level may have a plan.
+  };
+  PlanResult searchLevels(const SearchProblem& problem, PushChecker* push_checker, GoalGuide* guide,
+                          const SearchClock& clock) const;
+  Attempt searchLevel(const SearchProblem& problem, PushChecker* push_checker,
+                      const SafetyLevel& safety, GoalGuide* guide, const SearchClock& clock) const;
   PlanResult searchShortOnesLast(const PlanRequest& request, const std::vector<const Case*>& cases,
                                  const SearchClock& clock) const;
   void improve(const PlanRequest& request, const std::vector<const Case*>& cases,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "casepush/common/check.h"
@@ -192,45 +193,77 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
   }
   push_checker.tolerateStart(request.object.map_T_object);
   const SearchProblem problem = this->problem(request, cases, obstacles);
-  PlanResult result;
   GoalGuide guide(problem.room, scene->room, request.object.map_T_object.position(),
                   request.map_T_goal.position(), request.tolerance.position_m);
   if (!guide.reachesStart()) {
-    result.status = PlanStatus::kUnreachable;
     Outcome cut_off;
     cut_off.end = PlanSearch::End::kCutOff;
-    result.explanation = unreachableText(cut_off, options.max_nodes);
-    return result;
+    return failed(PlanStatus::kUnreachable, unreachableText(cut_off, options.max_nodes));
   }
-  for (const SafetyLevel& safety : safetyLevels(options.risk, options.zeta)) {
-    const Outcome outcome = searchOnce(problem, &push_checker, safety, &guide, clock, &result);
-    result.collision_checks = push_checker.checkCount();
-    clock.addNodes(outcome.nodes);
-    if (outcome.end == PlanSearch::End::kFound) {
-      result.status = PlanStatus::kSolved;
-      result.plan = outcome.solution.plan;
-      compoundPushes(&result.plan);
-      result.expected_s = outcome.solution.expected_s;
-      result.dead_end = outcome.solution.dead_end;
-      result.explanation = solvedText(result, options);
-      return result;
-    }
-    // OMPL's planners stop a little earlier, to free their trees; a lesser level has no time left.
-    if (outcome.end == PlanSearch::End::kStopped && (clock.isOver() || isOmpl(options.planner))) {
-      const bool cancelled = clock.isCancelled();
-      result.status = cancelled ? PlanStatus::kCancelled : PlanStatus::kDeadline;
-      result.explanation = cancelled ? "cancelled while planning"
-                                     : "no plan within " + rounded(request.deadline_s, 1) +
-                                           " s; allow more time or move the goal";
-      return result;
-    }
-    result.status = PlanStatus::kUnreachable;
-    result.explanation = unreachableText(outcome, options.max_nodes);
-    if (outcome.end == PlanSearch::End::kCutOff || !options.relax) {
-      return result;  // Where it is cut off, with no spread of outcomes either.
-    }
+  return searchLevels(problem, &push_checker, &guide, clock);
+}
+
+// What is not found with the least safety is not found with more. So that is looked for second:
+// where there is no plan, two searches tell.
+PlanResult PushPlanner::Data::searchLevels(const SearchProblem& problem, PushChecker* push_checker,
+                                           GoalGuide* guide, const SearchClock& clock) const {
+  const std::vector<SafetyLevel> levels = safetyLevels(options.risk, options.zeta);
+  int nodes = 0;
+  const auto search = [&](const SafetyLevel& safety) {
+    Attempt attempt = searchLevel(problem, push_checker, safety, guide, clock);
+    nodes += attempt.result.nodes;
+    attempt.result.nodes = nodes;
+    return attempt;
+  };
+  Attempt attempt = search(levels.front());
+  std::optional<PlanResult> probe;
+  if (attempt.is_worth_relaxing && levels.size() > 2 && options.planner != PlannerKind::kLattice &&
+      !isOmpl(options.planner)) {
+    SafetyLevel least = levels.back();
+    least.first_plan_will_do = true;
+    probe = search(least).result;
+    if (probe->status != PlanStatus::kSolved) return *probe;
   }
-  return result;
+  for (std::size_t i = 1; i < levels.size() && attempt.is_worth_relaxing; ++i) {
+    attempt = search(levels[i]);
+  }
+  const bool is_late = attempt.result.status == PlanStatus::kDeadline;
+  return is_late && probe ? *probe : attempt.result;
+}
+
+PushPlanner::Data::Attempt PushPlanner::Data::searchLevel(const SearchProblem& problem,
+                                                          PushChecker* push_checker,
+                                                          const SafetyLevel& safety,
+                                                          GoalGuide* guide,
+                                                          const SearchClock& clock) const {
+  Attempt attempt;
+  PlanResult& result = attempt.result;
+  const Outcome outcome = searchOnce(problem, push_checker, safety, guide, clock, &result);
+  result.collision_checks = push_checker->checkCount();
+  clock.addNodes(outcome.nodes);
+  if (outcome.end == PlanSearch::End::kFound) {
+    result.status = PlanStatus::kSolved;
+    result.plan = outcome.solution.plan;
+    compoundPushes(&result.plan);
+    result.expected_s = outcome.solution.expected_s;
+    result.dead_end = outcome.solution.dead_end;
+    result.explanation = solvedText(result, options);
+    return attempt;
+  }
+  // OMPL's planners stop a little earlier, to free their trees; a lesser level has no time left.
+  if (outcome.end == PlanSearch::End::kStopped && (clock.isOver() || isOmpl(options.planner))) {
+    const bool cancelled = clock.isCancelled();
+    result.status = cancelled ? PlanStatus::kCancelled : PlanStatus::kDeadline;
+    result.explanation = cancelled ? "cancelled while planning"
+                                   : "no plan within " + rounded(problem.request.deadline_s, 1) +
+                                         " s; allow more time or move the goal";
+    return attempt;
+  }
+  result.status = PlanStatus::kUnreachable;
+  result.explanation = unreachableText(outcome, options.max_nodes);
+  // Where it is cut off, it is so with no spread of outcomes either.
+  attempt.is_worth_relaxing = options.relax && outcome.end != PlanSearch::End::kCutOff;
+  return attempt;
 }
 
 // Shortened cases (negative ids) multiply what a search has to look at, so they wait until the

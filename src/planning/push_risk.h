@@ -95,7 +95,8 @@ class PushRisk {
 struct SafetyLevel {
   double zeta = 0.0;
   std::optional<double> max_collision_probability;
-  double deadline_share = 1.0;  ///< Of the time until the deadline, when to try the next level.
+  double deadline_share = 1.0;      ///< Of the time until the deadline, when to try the next level.
+  bool first_plan_will_do = false;  ///< It need not be improved, nor be safe from dead ends.
 };
 
 /// Sets the collision probability of each push and of the plan.

@@ -171,6 +171,21 @@ TEST(PushPlanner, acceptsASmallerSpreadOnlyWhereNothingElseIsPossible) {
   EXPECT_NE(result.explanation.find("safe only for zeta 2.0 instead of 3.0"), std::string::npos);
 }
 
+TEST(PushPlanner, needsTwoSearchesToSayThatThereIsNoPlan) {
+  // The chair's origin would fit through the door, the chair does not.
+  WorldModel world = emptyRoom();
+  world.boxes.push_back(standing("wall_1", 7.5, 3.6, 0.2, 7.2, 1.5));
+  world.boxes.push_back(standing("wall_2", 7.5, 11.4, 0.2, 7.2, 1.5));
+  PushPlannerOptions options = quick();
+  options.max_nodes = 3000;
+  const PlanResult result =
+      plannerFor(world, options)
+          ->plan(requestFor(Pose2(5.0, 7.5, 0.0), Pose2(10.0, 7.5, 0.0)), syntheticPushes(14, 7));
+  EXPECT_EQ(result.status, PlanStatus::kUnreachable);
+  // Each with quick and with thorough checks of the robot's ways.
+  EXPECT_LE(result.nodes, 4 * 3000);
+}
+
 TEST(PushPlanner, doesNotPlanPushesThatTheRobotCannotGetTo) {
   // The robot stands in a cell of its own; the chair does not.
   WorldModel world = emptyRoom();
