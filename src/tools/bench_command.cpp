@@ -228,6 +228,7 @@ void addBenchCommand(CLI::App& app, Run& run) {
   addObjectOption(*command, outcomes.object);
   addRobotOption(*command, outcomes.robot);
   command->add_option("--pushes", outcomes.pushes, "Random pushes; 0: measure speed only")
+      ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command->add_option("--swivels", outcomes.swivels, "Random swivel angles for each push")
       ->capture_default_str();

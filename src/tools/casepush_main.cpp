@@ -25,6 +25,13 @@ bool wantsJson(int argc, char** argv) {
   return false;
 }
 
+/// The command as it was typed, as far as it is known: "casepush cases list".
+std::string commandOf(const CLI::App& app) {
+  const std::vector<const CLI::App*> chosen =
+      app.get_subcommands([](const CLI::App* each) { return each->parsed(); });
+  return app.get_name() + (chosen.empty() ? "" : " " + commandOf(*chosen.front()));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -55,7 +62,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> unknown = app.remaining();
     const std::string what = unknown.empty() ? error.what() : "unknown argument " + unknown.front();
-    return fail(what + "; see casepush --help", json);
+    return fail(what + "; see " + commandOf(app) + " --help", json);
   } catch (const casepush::InputError& error) {
     return fail(error.what(), json);
   } catch (const std::exception& error) {

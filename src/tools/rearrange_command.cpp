@@ -51,9 +51,7 @@ PushTaskGoal goalFrom(const std::string& text, const WorldModel& world) {
   PushTaskGoal goal;
   goal.object_id = text.substr(0, colon);
   goal.map_T_goal = Pose2(x_m, y_m, yaw_deg * M_PI / 180.0);
-  if (!world.contains(goal.map_T_goal)) {
-    throw InputError(where, "lies outside of world " + world.name);
-  }
+  requireInside(where, goal.map_T_goal, world);
   return goal;
 }
 

@@ -1,6 +1,7 @@
 #include "task_arguments.h"
 
 #include <cmath>
+#include <sstream>
 
 #include "casepush/cases/case_base.h"
 #include "casepush/common/input_error.h"
@@ -20,14 +21,23 @@ Pose2 poseFrom(const std::vector<double>& numbers, const std::string& option,
     }
   }
   const Pose2 pose(numbers[0], numbers[1], numbers[2] * kDegree);
-  if (!world.contains(pose)) {
-    throw InputError(option, "(" + std::to_string(numbers[0]) + ", " + std::to_string(numbers[1]) +
-                                 ") lies outside of world " + world.name);
-  }
+  requireInside(option, pose, world);
   return pose;
 }
 
 }  // namespace
+
+void requireInside(const std::string& where, const Pose2& pose, const WorldModel& world) {
+  if (world.contains(pose)) return;
+  const auto text = [](double x_m, double y_m) {
+    std::ostringstream stream;
+    stream << "(" << x_m << ", " << y_m << ")";
+    return stream.str();
+  };
+  throw InputError(where, text(pose.x(), pose.y()) + " lies outside of world " + world.name +
+                              ", which reaches from " + text(world.min_m.x(), world.min_m.y()) +
+                              " to " + text(world.max_m.x(), world.max_m.y()) + " m");
+}
 
 void addMapOption(CLI::App& command, std::string& map) {
   command.add_option(

@@ -25,6 +25,9 @@ struct TaskArguments {
 /// --map. @pre `map` lives until the command line is parsed.
 void addMapOption(CLI::App& command, std::string& map);
 
+/// @param where  What the pose is given by. @throws InputError if it is not in the world.
+void requireInside(const std::string& where, const Pose2& pose, const WorldModel& world);
+
 void addTaskOptions(CLI::App& command, TaskArguments& arguments);
 
 /// How to plan.

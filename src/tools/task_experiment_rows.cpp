@@ -41,6 +41,13 @@ std::string labelText(const nlohmann::ordered_json& label) {
   return text;
 }
 
+/// Learning takes minutes: what does not exist is told of before.
+void checkNames(const Catalog& catalog, const TaskExperimentOptions& options) {
+  catalog.object(options.object);
+  for (const std::string& name : options.movable) catalog.object(name);
+  if (options.setting == TaskSetting::kWorld) catalog.world(options.world);
+}
+
 }  // namespace
 
 void printTable(const nlohmann::ordered_json& rows) {
@@ -62,6 +69,7 @@ void printTable(const nlohmann::ordered_json& rows) {
 
 Results runAll(const std::vector<Row>& rows) {
   const Catalog catalog = Catalog::standard();
+  for (const Row& row : rows) checkNames(catalog, row.options);
   ExperimentProgress progress(rows.size());
   Results results;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -288,11 +288,15 @@ def bad_inputs(tmp_path, case_base):
         (plan + ["--case-base", truncated], ["truncated.db"]),
         (plan + ["--case-base", empty], ["empty.db", "casepush learn"]),
         (with_cases + ["--goal", "nan", "1", "0"], ["--goal", "finite"]),
-        (with_cases + ["--goal", "900", "1", "0"], ["--goal", "outside"]),
+        (with_cases + ["--goal", "900", "1", "0"], ["--goal", "outside", "(0, 0) to (15, 15)"]),
         (with_cases + ["--start", "3", "3", "0"], ["--goal"]),
         (with_cases + ["--seed", "-1"], ["--seed"]),
         (with_cases + ["--seed", "99999999999999999999"], ["--seed"]),
-        (with_cases + ["--deadline", "nan"], ["--deadline"]),
+        (with_cases + ["--deadline", "nan"], ["--deadline", "see casepush plan --help"]),
+        (["cases", "remove", "--case-base", case_base], ["--id", "see casepush cases remove --help"]),
+        (["bench", "sim", "--pushes", "-1"], ["--pushes", "100000"]),
+        (["experiment", "obstacles", "--movable", "sofa"], ["sofa", "office_chair"]),
+        (["experiment", "success", "--rooms", "moon"], ["moon", "office"]),
         (plan + ["--case-base", ""], ["--case-base"]),
         (["cases", "import", "--case-base", tmp_path / "new.db", nan_yaml], ["nan.yaml", "period"]),
         (["learn", "--object", "office_chair", "--case-base", tmp_path / "l.db", "--coverage", "all"],
@@ -328,6 +332,20 @@ def test_bad_input_with_json_still_gives_one_object():
     assert process.returncode == 2
     result = result_of(process)
     assert result["success"] is False and "sofa" in result["error"]
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (("--seed", "-3"), ["--seed", "2147483647"]), (("--timeout", "nan"), ["--timeout", "above 0"]),
+    (("--world", "moon"), ["'moon'", "office"]), (("--object", "sofa"), ["'sofa'", "office_chair"]),
+    (("--goal", "1 2"), ["--goal", "x_m y_m yaw_deg"]), (("--world", "moon.yaml"), ["moon.yaml"])])
+def test_demo_refuses_bad_arguments_before_it_starts(tmp_path, arguments, words):
+    script = os.path.join(os.environ["CASEPUSH_SHARE"], "scripts", "run_demo")
+    process = subprocess.run([script, "--results", tmp_path / "demo", *arguments], text=True,
+                             capture_output=True, timeout=20, check=False)
+    assert process.returncode == 2
+    for word in words:
+        assert word in process.stderr.splitlines()[-1]
+    assert not (tmp_path / "demo").exists()
 
 
 def test_goal_in_a_wall_is_refused_with_a_reason(case_base):

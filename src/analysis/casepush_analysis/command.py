@@ -29,15 +29,18 @@ def main(arguments, log=sys.stderr, out=sys.stdout):
     options = parse(arguments)
     stem = os.path.splitext(os.path.basename(options.bag))[0]
     folder = options.output or stem + '_analysis'
+    is_new = not os.path.isdir(folder)
     try:
+        os.makedirs(folder, exist_ok=True)  # Before reading, which may take long.
         analysis = analyse(read_recording(options.bag, log))
+        for note in analysis.recording.notes:
+            log.write(f'analyze_bag: {note}\n')
+        text = write(analysis, folder, log)
     except InputError as error:
         log.write(f'analyze_bag: {error}\n')
+        if is_new:
+            os.rmdir(folder)
         return EXIT_BAD_INPUT
-    for note in analysis.recording.notes:
-        log.write(f'analyze_bag: {note}\n')
-    try:
-        text = write(analysis, folder, log)
     except OSError as error:
         log.write(f'analyze_bag: {error.filename or folder}: {error.strerror}\n')
         return EXIT_NOT_WRITTEN
@@ -49,7 +52,6 @@ def main(arguments, log=sys.stderr, out=sys.stdout):
 
 def write(analysis, folder, log):
     """Writes everything into the folder. Returns analysis.json's text."""
-    os.makedirs(folder, exist_ok=True)
     for table in tables.all_tables(analysis):
         table.write(folder)
     text = summary.to_json(summary.summarise(analysis))
