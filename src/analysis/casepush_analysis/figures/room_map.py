@@ -60,7 +60,7 @@ def _draw_plans(axes, plans):
 
 def _draw_pushes(axes, pushes):
     for number, push in enumerate(pushes, 1):
-        colour = style.REJECTED if push.rejected else style.ACCEPTED
+        colour = style.verdict_colour(push)
         if push.map_expected is not None:
             geometry.ellipse(axes, push.map_expected, style.SIGMAS_95, facecolor=style.EXPECTED,
                              edgecolor='#b8860b', alpha=0.55, linewidth=0.8, zorder=5.5)
@@ -130,6 +130,8 @@ def _legend(axes, recording, entry, robot, truth, tracked):
                (pushes, line(style.ACCEPTED, 'observed, as expected', marker='o', markersize=4)),
                (pushes, line(style.REJECTED, 'observed, not as expected', marker='o',
                              markersize=4)),
+               (any(not p.tested for p in entry.pushes),
+                line(style.NEUTRAL, 'observed, failed or first try', marker='o', markersize=4)),
                (entry.collisions, line(style.REJECTED, 'collision', marker='x', markersize=9,
                                        markeredgewidth=2.5, linestyle='')),
                (recording.room is not None, Patch(facecolor='#8d97a3',

@@ -51,10 +51,17 @@ def save(figure, path):
                    bbox_inches='tight', pad_inches=0.12)
 
 
+def verdict_colour(push):
+    """Grey for a push that says nothing of its case: broken up, or tried for the first time."""
+    if push.rejected:
+        return REJECTED
+    return ACCEPTED if push.tested else NEUTRAL
+
+
 def label(axes, text, x, y, colour, size, offset=(4, 4)):
     """A small text beside a point, legible on any background."""
     axes.annotate(text, (x, y), xytext=offset, textcoords='offset points', fontsize=size,
-                  fontweight='bold', color=colour, zorder=9,
+                  fontweight='bold', color=colour, zorder=11,
                   path_effects=[withStroke(linewidth=2.0, foreground='white')])
 
 
