@@ -25,7 +25,7 @@ def draw(pushes, alpha, title):
     p_values.scatter(numbers, [max(p.p_value, _SMALLEST_P) for _, p, _ in tested], c=colours,
                      s=12 if len(numbers) > _MANY else 24, linewidths=0.0)
     p_values.axhline(alpha, color=style.REJECTED, linewidth=1.0, linestyle='--')
-    for axes in (position, yaw, p_values):
+    for axes in (position, yaw):
         axes.scatter(untested, [0.02] * len(untested), marker='x', s=14, linewidths=1.0,
                      color=style.NEUTRAL, transform=axes.get_xaxis_transform(), zorder=5)
     p_values.set_yscale('log')
