@@ -137,9 +137,10 @@ void AdaptingCases::compare(const std::vector<Case>& known, std::int64_t id,
     const double log_ratio = logPredictive(statistics(*member->second), start_T_object) -
                              logPredictive(statistics(*expected), start_T_object);
     // Many pushes do about the same in either circumstances, and whichever case is known better
-    // wins then. Only what surprises the present one speaks for another; a bet with less to win is
-    // a fair one still.
-    const bool counts = isSurprising(statistics(*expected), start_T_object);
+    // wins then. Only what surprises the present one, and not the other, speaks for the other; a bet
+    // with less to win is a fair one still.
+    const bool counts = isSurprising(statistics(*expected), start_T_object) &&
+                        !isSurprising(statistics(*member->second), start_T_object);
     other.second.addLogRatio(counts ? log_ratio : std::min(0.0, log_ratio));
   }
 }

@@ -104,6 +104,18 @@ TEST_F(AdaptingCasesTest, keepsToWhatWasToldAsLongAsItIsNoWorse) {
   EXPECT_EQ(adapting_.context("chair"), told);
 }
 
+TEST_F(AdaptingCasesTest, doesNotTakeWhatFitsNowhereForTheNearestThatIsKnown) {
+  PushContext told;
+  told.load_kg = 15.0;
+  adapting_.tell("chair", told);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(push(i % 2, 0.7), "");
+  for (int i = 0; i < 3; ++i) {
+    push(i % 2, 1.6);  // Farther than ever, and so nearer to what was known without a load.
+    EXPECT_FALSE(adapting_.context("chair") == PushContext());
+    expectOriginals();
+  }
+}
+
 TEST_F(AdaptingCasesTest, numbersFurtherChanges) {
   pushUntilNoticed(0.5, 4);
   for (int i = 0; i < 60; ++i) push(i % 4, 0.5);
