@@ -37,6 +37,12 @@ bool isIn(const PushContext& context, const PushContext& present) {
   return present == PushContext{} ? context.noticed == 0 : contextDistance(context, present) == 0.0;
 }
 
+/// Whether circumstances are possible ones for somebody who knows what was told.
+bool mayBe(const PushContext& context, const PushContext& told) {
+  return (!told.load_kg || context.load_kg == told.load_kg) &&
+         (told.floor.empty() || context.floor == told.floor);
+}
+
 }  // namespace
 
 AdaptingCases::AdaptingCases(CaseBase* base, PushContext told, const AdaptingOptions& options)
@@ -56,8 +62,8 @@ AdaptingCases::Circumstances& AdaptingCases::of(const std::string& object) {
 }
 
 void AdaptingCases::tell(const std::string& object, const PushContext& told) {
-  circumstances_.insert_or_assign(object,
-                                  Circumstances{told, ChangeDetector(options_.change), {}, {}});
+  circumstances_.insert_or_assign(
+      object, Circumstances{told, told, ChangeDetector(options_.change), {}, {}});
 }
 
 PushContext AdaptingCases::context(const std::string& object) const {
@@ -122,7 +128,7 @@ void AdaptingCases::compare(const std::vector<Case>& known, std::int64_t id,
     const bool is_of_family = family_of.at(push_case.id) == family_of.at(id);
     if (is_present && is_of_family) {
       expected = &push_case;
-    } else if (!is_present) {
+    } else if (!is_present && mayBe(push_case.context, now->told)) {
       const ContextKey key = keyOf(push_case.context);
       now->others.try_emplace(key, push_case.context, ChangeDetector(options_.change));
       if (is_of_family) family[key] = &push_case;
@@ -137,8 +143,8 @@ void AdaptingCases::compare(const std::vector<Case>& known, std::int64_t id,
     const double log_ratio = logPredictive(statistics(*member->second), start_T_object) -
                              logPredictive(statistics(*expected), start_T_object);
     // Many pushes do about the same in either circumstances, and whichever case is known better
-    // wins then. Only what surprises the present one, and not the other, speaks for the other; a bet
-    // with less to win is a fair one still.
+    // wins then. Only what surprises the present one, and not the other, speaks for the other; a
+    // bet with less to win is a fair one still.
     const bool counts = isSurprising(statistics(*expected), start_T_object) &&
                         !isSurprising(statistics(*member->second), start_T_object);
     other.second.addLogRatio(counts ? log_ratio : std::min(0.0, log_ratio));
@@ -195,7 +201,7 @@ std::string AdaptingCases::change(const std::string& object, PushContext context
   const std::vector<Testimony> since(now->recent.end() - pushes, now->recent.end());
   takeBack(since);
   const PushContext before = now->context;
-  tell(object, context);
+  *now = Circumstances{now->told, context, ChangeDetector(options_.change), {}, {}};
   for (Testimony testimony : since) {
     const std::int64_t id = memberFor(testimony.case_id, base_->cases(object), context).first;
     testimony.push.context = context;

@@ -26,9 +26,10 @@ struct AdaptingOptions {
 /// they changed: then what was learnt since the change is taken back, and learnt again by copies of
 /// the cases for the new circumstances. The originals keep what they knew. Cases not yet pushed in
 /// the present circumstances are offered as ContextShift conjectures, and copied when they are. If
-/// cases of circumstances met before explain the pushes since the change, those are taken for the
-/// present ones; else it is a change of its own (PushContext::noticed). Only cases that were
-/// observed in the present circumstances testify: what others predict is a guess anyway.
+/// cases of circumstances met before explain the pushes since the change, and nothing else was
+/// told, those are taken for the present ones; else it is a change of its own
+/// (PushContext::noticed). Only cases that were observed in the present circumstances testify: what
+/// others predict is a guess anyway.
 class AdaptingCases {
  public:
   /// @param base  Must outlive this; may be written to by others between the calls.
@@ -61,7 +62,8 @@ class AdaptingCases {
     ObservedPush push;
   };
   struct Circumstances {
-    PushContext context;
+    PushContext told;
+    PushContext context;  ///< As told, or as the pushes say since.
     ChangeDetector detector;
     std::map<ContextKey, std::pair<PushContext, ChangeDetector>> others;  ///< Met before.
     std::vector<Testimony> recent;  ///< The last ones, which may be from after a change.

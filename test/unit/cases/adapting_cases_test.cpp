@@ -116,6 +116,19 @@ TEST_F(AdaptingCasesTest, doesNotTakeWhatFitsNowhereForTheNearestThatIsKnown) {
   }
 }
 
+/// Somebody may have taken the load off, but the cases of an unknown load are not those of none.
+TEST_F(AdaptingCasesTest, believesTheLoadThatWasTold) {
+  PushContext told;
+  told.load_kg = 15.0;
+  adapting_.tell("chair", told);
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(push(i % 4, 0.6), "");
+  EXPECT_NE(pushUntilNoticed(1.0, 8), "");
+  EXPECT_EQ(adapting_.context("chair").load_kg, 15.0);
+  EXPECT_EQ(adapting_.context("chair").noticed, 1);
+  for (int i = 0; i < 8; ++i) push(i % 4, 1.0);
+  expectOriginals();
+}
+
 TEST_F(AdaptingCasesTest, numbersFurtherChanges) {
   pushUntilNoticed(0.5, 4);
   for (int i = 0; i < 60; ++i) push(i % 4, 0.5);
