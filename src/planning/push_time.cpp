@@ -58,4 +58,9 @@ double PushTime::first(const Pose2& object_T_robot, int next) const {
   return drive(object_T_robot, begin_[next]) + duration_s_[next];
 }
 
+double PushTime::first(const Pose2& object_T_robot, int next, double drive_m) const {
+  return std::max(first(object_T_robot, next),
+                  options_.handling_s + driveS(drive_m) + duration_s_[next]);
+}
+
 }  // namespace casepush

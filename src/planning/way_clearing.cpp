@@ -1,10 +1,13 @@
 // What of PushPlanner deals with movable obstacles: who is in the way, and how to push it away.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "chain_plan.h"
 #include "clearing_search.h"
+#include "drive_field.h"
 #include "planner_data.h"
 #include "push_risk.h"
 #include "way.h"
@@ -12,11 +15,12 @@
 namespace casepush {
 namespace {
 
-constexpr int kMaxNodes = 1500;       // Of one search: about three pushes deep.
-constexpr double kPassing_m = 0.2;    // More than the robot needs to pass is no better.
-constexpr double kSightline_m = 3.0;  // Whatever is farther off counts as this far.
-constexpr double kDocking_m = 0.4;    // Behind a push's start that the robot comes along.
-constexpr std::size_t kStride = 4;    // Stations of a way: its poses are half a cell apart.
+constexpr int kMaxNodes = 1500;     // Of one search: about three pushes deep.
+constexpr double kPassing_m = 0.2;  // More than the robot needs to pass is no better.
+constexpr double kDocking_m = 0.4;  // Behind a push's start that the robot comes along.
+constexpr double kBeside_m = 0.3;   // Clearance around objects is exact up to this.
+constexpr double kNoWay_m = 30.0;   // Where cells show no way it counts as this long.
+constexpr std::size_t kStride = 4;  // Stations of a way: its poses are half a cell apart.
 
 /// The plan's first pushes; a negative count is all of them.
 std::vector<PlannedPush> nextPushes(const PushPlan& plan, int count) {
@@ -98,8 +102,8 @@ std::vector<std::string> PushPlanner::inTheRobotsWay(const PlacedObject& object,
   sortByDistance(map_T_robot, &nearest);
   for (const PlacedObject& obstacle : nearest) {
     const Shadow body = outlineOf(data_->objects.at(obstacle.model).solid);
-    if (way.distance(body, obstacle.map_T_object, kSightline_m) <
-        data_->options.robot_path.margin_m) {
+    const double margin_m = data_->options.robot_path.margin_m;
+    if (way.distance(body, obstacle.map_T_object, margin_m) < margin_m) {
       ids.push_back(obstacle.id);
     }
   }
@@ -167,6 +171,57 @@ KeptFree keptFree(const ClearingRequest& request, const std::vector<Case>& cases
   return free;
 }
 
+/// The robot's ways to the obstacle, around it, and from there to where it is needed next.
+class Drives {
+ public:
+  /// @param all  Everything but the obstacle.
+  Drives(const ClearanceGrid& map, const ApproachLibrary& robot,
+         const std::vector<PlacedSolid>& all, const Solid& obstacle,
+         const Eigen::Vector2d& map_next)
+      : robot_(robot),
+        obstacle_(obstacle),
+        grid_(map),
+        back_(withAll(all), robot.minClearance(), map_next) {}
+
+  /// @param obstacle  Where it stands meanwhile.
+  double length(const Eigen::Vector2d& from, const Pose2& map_T_obstacle,
+                const Eigen::Vector2d& to) {
+    if (!field_ || from != from_) {
+      ClearanceGrid grid = grid_;
+      grid.add({obstacle_, map_T_obstacle}, robot_.discs(), kBeside_m);
+      from_ = from;
+      field_.emplace(std::move(grid), robot_.minClearance(), from);
+    }
+    return known(field_->lengthTo(to));
+  }
+
+  double lengthBack(const Eigen::Vector2d& from) const { return known(back_.lengthTo(from)); }
+
+ private:
+  const ClearanceGrid& withAll(const std::vector<PlacedSolid>& all) {
+    for (const PlacedSolid& solid : all) grid_.add(solid, robot_.discs(), kBeside_m);
+    return grid_;
+  }
+
+  // Cells do not show every way; whether there is one is asked elsewhere.
+  static double known(double length_m) { return std::min(length_m, kNoWay_m); }
+
+  const ApproachLibrary& robot_;
+  const Solid& obstacle_;
+  ClearanceGrid grid_;
+  DriveField back_;
+  std::optional<DriveField> field_;  ///< Of the last place that was asked for.
+  Eigen::Vector2d from_;
+};
+
+/// Where the robot begins the way's next push; where it stands if that is not known.
+Eigen::Vector2d nextPlace(const ClearingRequest& request, const std::vector<Case>& cases) {
+  const PushPlan& way = request.ways.back();
+  const Case* next = way.pushes.empty() ? nullptr : findCase(cases, way.pushes.front().case_id);
+  if (next == nullptr) return request.map_T_robot.position();
+  return (way.pushes.front().map_T_start * next->steps.front().start_T_robot()).position();
+}
+
 /// The same as one search sees it.
 struct Avoided {
   const Way& way;
@@ -174,10 +229,29 @@ struct Avoided {
   double needed_m;
 };
 
+/// How long the robot takes for a push with its way there; infinity if it does not get there.
+double pushTimeS(const ClearingRequest& request, const CaseSet& set, const Pose2& map_T_obstacle,
+                 int previous, int next, ApproachVerifier* approaches, Drives* drives) {
+  const PreparedCase* before = previous < 0 ? nullptr : &set.cases[previous];
+  const PreparedCase& push_case = set.cases[next];
+  const bool is_near =
+      before != nullptr && approaches->canApproachSimply(map_T_obstacle, before, push_case);
+  if (is_near) return set.time.after(previous, next);
+  if (!approaches->canApproach(map_T_obstacle, before, push_case)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const Pose2 map_T_robot =
+      before == nullptr ? request.map_T_robot : map_T_obstacle * before->outcome_T_robot;
+  const Pose2 begin = map_T_obstacle * push_case.robot_begin;
+  return set.time.first(map_T_obstacle.inverse() * map_T_robot, next,
+                        drives->length(map_T_robot.position(), map_T_obstacle, begin.position()));
+}
+
 ClearingChain clearFrom(const ClearingRequest& request, const SearchProblem& search,
                         const CaseSet& set, const Avoided& avoided, PushChecker* push_checker,
-                        ApproachVerifier* approaches, const SearchClock& clock) {
+                        ApproachVerifier* approaches, Drives* drives, const SearchClock& clock) {
   const Shadow outline = outlineOf(search.object.solid);
+  const double wanted_m = 2.0 * search.robot.radius_m + kPassing_m;
   const ClearingProblem clearing{
       set.cases,
       set.time,
@@ -187,14 +261,14 @@ ClearingChain clearFrom(const ClearingRequest& request, const SearchProblem& sea
       search.options.spacing_m,
       search.object.gyration_radius_m,
       kMaxNodes,
-      2.0 * search.robot.radius_m + kPassing_m,
+      wanted_m,
       avoided.needed_m,
-      [&](const Pose2& pose) { return avoided.way.distance(outline, pose, kSightline_m); },
-      [&](const Pose2& pose) { return avoided.others.distance(outline, pose, kSightline_m); },
+      [&](const Pose2& pose) { return avoided.way.distance(outline, pose, wanted_m); },
+      [&](const Pose2& pose) { return avoided.others.distance(outline, pose, wanted_m); },
       [&](const Pose2& pose, int previous, int next) {
-        const PreparedCase* before = previous < 0 ? nullptr : &set.cases[previous];
-        return approaches->canApproach(pose, before, set.cases[next]);
-      }};
+        return pushTimeS(request, set, pose, previous, next, approaches, drives);
+      },
+      [&](const Pose2& robot) { return set.time.driveS(drives->lengthBack(robot.position())); }};
   return searchClearing(clearing, [&clock] { return clock.isOver(); });
 }
 
@@ -239,6 +313,7 @@ ClearingResult PushPlanner::Data::clearAway(const ClearingRequest& request,
   const KeptFree free =
       keptFree(request, cases, objects, robot, kStepPerCell * checker.columns().resolution_m);
   ApproachVerifier approaches_of(search, push_checker.collisions());
+  Drives drives(*travel, *approaches, standing, search.object.solid, nextPlace(request, cases));
   ClearingResult result;
   result.explanation = "no push of " + request.obstacle.model +
                        " leads out of the way; clear some space around it by hand";
@@ -248,12 +323,13 @@ ClearingResult PushPlanner::Data::clearAway(const ClearingRequest& request,
     if (set == nullptr) return notCleared("no time was left to look for pushes");
     const Way& way = level.all_pushes ? free.all_pushes : free.next_pushes;
     const ClearingChain chain = clearFrom(request, search, *set, {way, free.others, level.needed_m},
-                                          &push_checker, &approaches_of, clock);
+                                          &push_checker, &approaches_of, &drives, clock);
     result.nodes += chain.nodes;
     if (chain.found) {
       result.found = true;
       result.off_all_pushes = level.all_pushes;
       result.expected_s = chain.cost_s;
+      result.back_s = chain.back_s;
       result.distance_m = chain.distance_m;
       result.plan = planOf(plan_request, set->cases, chain.pushes, safety);
       result.explanation = std::to_string(chain.pushes.size()) + " pushes bring " +

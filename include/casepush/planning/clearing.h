@@ -23,7 +23,8 @@ struct ClearingResult {
   bool found = false;
   std::string explanation;      ///< One line for a person, also if found.
   PushPlan plan;                ///< Of the obstacle.
-  double expected_s = 0.0;      ///< Of all its pushes, with the robot's ways between them.
+  double expected_s = 0.0;      ///< Of all its pushes, with the robot's ways to and between them.
+  double back_s = 0.0;          ///< Of the robot's way from there to the last plan's next push.
   bool off_all_pushes = false;  ///< Or else off the next ones only.
   double distance_m = 0.0;      ///< Of the obstacle from the ways and from what stands, afterwards.
   int nodes = 0;

@@ -30,6 +30,12 @@ class PushTime {
   /// Push `next` first, with the robot standing at `object_T_robot` [s].
   double first(const Pose2& object_T_robot, int next) const;
 
+  /// The same if the robot's way there is at least `drive_m` long, around all that stands [s].
+  double first(const Pose2& object_T_robot, int next, double drive_m) const;
+
+  /// Driving so far, without anything else [s].
+  double driveS(double length_m) const { return length_m / options_.drive_speed_mps; }
+
   /// No chain of pushes moves the object by `distance_m` in less time [s].
   double lowerBound(double distance_m) const {
     return best_speed_mps_ > 0.0 ? std::max(0.0, distance_m) / best_speed_mps_

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "planning/furnished_room.h"
 #include "planning/synthetic_pushes.h"
 #include "planning/way.h"
@@ -27,7 +29,7 @@ class ClearingSearch : public ::testing::Test {
             *time_,
             *push_checker_,
             Pose2(7.5, 7.5, 0.4),
-            Pose2(2.0, 7.5, 0.0),
+            robot_stands_,
             0.1,
             chair_.gyration_radius_m,
             3000,
@@ -35,7 +37,11 @@ class ClearingSearch : public ::testing::Test {
             0.05,
             [this](const Pose2& pose) { return way_.distance(outline_, pose, 2.0); },
             [](const Pose2&) { return 2.0; },
-            [](const Pose2&, int, int) { return true; }};
+            [this](const Pose2& obstacle, int previous, int next) {
+              return previous < 0 ? time_->first(obstacle.inverse() * robot_stands_, next)
+                                  : time_->after(previous, next);
+            },
+            [](const Pose2&) { return 0.0; }};
   }
 
   double worstDistance(const Pose2& from, const PreparedCase& push_case) const {
@@ -46,6 +52,7 @@ class ClearingSearch : public ::testing::Test {
     return worst_m;
   }
 
+  const Pose2 robot_stands_{2.0, 7.5, 0.0};
   const ObjectModel chair_ = testChair();
   const RobotModel robot_ = testRobot();
   const Shadow outline_ = outlineOf(chair_.solid);
@@ -71,22 +78,53 @@ TEST_F(ClearingSearch, EndsOutOfTheWayAtEverySigmaPoint) {
   EXPECT_GE(worstDistance(pose, cases_[chain.pushes.back()]), problem().needed_m);
 }
 
-TEST_F(ClearingSearch, NoShorterChainEndsOutOfTheWay) {
+TEST_F(ClearingSearch, TakesLittleLongerThanTheQuickestOfAllPairs) {
   furnish(emptyRoom());
-  const ClearingChain chain = searchClearing(problem(), never_);
+  const ClearingProblem whole = problem();
+  const ClearingChain chain = searchClearing(whole, never_);
   ASSERT_TRUE(chain.found);
-  ASSERT_LE(chain.pushes.size(), 2U) << "the oracle looks at single pushes only";
-  double best_m = -1.0;
-  for (const PreparedCase& push_case : cases_) {
-    if (push_checker_->isSafe(push_case, problem().map_T_start)) {
-      best_m = std::max(best_m, worstDistance(problem().map_T_start, push_case));
+  const Pose2& start = whole.map_T_start;
+  double quickest_s = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < static_cast<int>(cases_.size()); ++i) {
+    if (!push_checker_->isSafe(cases_[i], start)) continue;
+    const Pose2 pose = start * cases_[i].start_outcome.mean;
+    for (int k = 0; k < static_cast<int>(cases_.size()); ++k) {
+      const bool is_away = push_checker_->isSafe(cases_[k], pose) &&
+                           worstDistance(pose, cases_[k]) >= whole.needed_m;
+      if (!is_away) continue;
+      quickest_s = std::min(quickest_s, whole.push_s(start, -1, i) + whole.push_s(pose, i, k));
     }
   }
-  if (best_m >= problem().needed_m) {
-    EXPECT_EQ(chain.pushes.size(), 1U);
-    EXPECT_NEAR(chain.distance_m, std::min(best_m, problem().wanted_m), 1e-9);
-  } else {
-    EXPECT_GT(chain.pushes.size(), 1U);
+  ASSERT_TRUE(std::isfinite(quickest_s));
+  EXPECT_LE(chain.cost_s, 1.3 * quickest_s);
+}
+
+TEST_F(ClearingSearch, CountsTheRobotsWaysThereAndBack) {
+  furnish(emptyRoom());
+  const ClearingChain free = searchClearing(problem(), never_);
+  ASSERT_TRUE(free.found);
+  const auto end_y_m = [this](const ClearingProblem& solved) {
+    Pose2 pose = solved.map_T_start;
+    for (const int push : searchClearing(solved, never_).pushes) {
+      pose = pose * cases_[push].start_outcome.mean;
+    }
+    return pose.y();
+  };
+  // Whatever brings the obstacle to one side is far off, or the way back from there is long.
+  for (const double side : {-1.0, 1.0}) {
+    const auto is_there = [side](double y_m) { return side * (y_m - 7.5) > 0.0; };
+    ClearingProblem far = problem();
+    const auto plain_s = far.push_s;
+    far.push_s = [&](const Pose2& obstacle, int previous, int next) {
+      const Pose2 end = obstacle * cases_[next].start_outcome.mean;
+      return plain_s(obstacle, previous, next) + (is_there(end.y()) ? 100.0 : 0.0);
+    };
+    EXPECT_FALSE(is_there(end_y_m(far)));
+    ClearingProblem long_back = problem();
+    long_back.back_s = [&](const Pose2& robot) { return is_there(robot.y()) ? 100.0 : 0.0; };
+    const ClearingChain chain = searchClearing(long_back, never_);
+    ASSERT_TRUE(chain.found);
+    EXPECT_EQ(chain.back_s, 0.0);
   }
 }
 
@@ -95,13 +133,16 @@ TEST_F(ClearingSearch, LeavesOutWhatTheRobotCannotGetTo) {
   const ClearingChain free = searchClearing(problem(), never_);
   ASSERT_TRUE(free.found);
   ClearingProblem restricted = problem();
-  restricted.can_approach = [&free](const Pose2&, int previous, int next) {
-    return previous >= 0 || next != free.pushes.front();
+  const auto plain_s = restricted.push_s;
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  restricted.push_s = [&](const Pose2& obstacle, int previous, int next) {
+    const bool can = previous >= 0 || next != free.pushes.front();
+    return can ? plain_s(obstacle, previous, next) : kNever;
   };
   const ClearingChain other = searchClearing(restricted, never_);
   ASSERT_TRUE(other.found);
   EXPECT_NE(other.pushes.front(), free.pushes.front());
-  restricted.can_approach = [](const Pose2&, int, int) { return false; };
+  restricted.push_s = [&](const Pose2&, int, int) { return kNever; };
   EXPECT_FALSE(searchClearing(restricted, never_).found);
 }
 
@@ -110,6 +151,7 @@ TEST_F(ClearingSearch, KeepsAwayFromOtherObstaclesIfItCan) {
   ClearingProblem beside = problem();
   const Pose2 other(7.5, 9.0, 0.0);  // North of the way.
   beside.others_distance_m = [&other](const Pose2& pose) { return distance(pose, other) - 0.7; };
+  beside.push_s = [](const Pose2&, int, int) { return 10.0; };
   const ClearingChain chain = searchClearing(beside, never_);
   ASSERT_TRUE(chain.found);
   Pose2 pose = beside.map_T_start;

@@ -91,7 +91,8 @@ TEST_F(WayClearing, WhereNoPlaceIsOffAllPushesItIsOffTheNextOnes) {
   EXPECT_FALSE(cleared.off_all_pushes);
   obstacle.map_T_object = cleared.plan.pushes.back().map_outcome.mean;
   EXPECT_EQ(planner->inTheWay(way, cases_, {obstacle}, 3), Ids{});
-  request.next_pushes = 10;
+  request.ways = {straight(12)};  // As far as the end of the alley.
+  request.next_pushes = 12;
   EXPECT_FALSE(planner->clear(request, cases_).found);
 }
 
