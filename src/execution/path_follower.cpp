@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLongestDockM = 0.3;
 // Velocity step that the base takes at a corner: at 0.8 m/s^2 it leaves the path by some 2 cm.
-constexpr double kCornerStepMps = 0.1;
+constexpr double kCornerStepMps = 0.15;
 // The rest of what the robot can do is left to feedback.
 constexpr double kAccelerationShare = 0.7;
 // Errors at which the reference slows down and at which it waits for the robot.

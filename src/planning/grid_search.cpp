@@ -11,6 +11,9 @@ namespace {
 
 /// More clearance than this is not better [m].
 constexpr double kPreferredClearance_m = 0.2;
+/// A shortcut may come closer than the path did by so much, but not closer than this to anything.
+constexpr double kCloser_m = 0.05;
+constexpr double kShortcutClearance_m = 0.08;
 /// Travelling without any clearance costs as much as this many times the length with enough of it.
 constexpr double kTightFactor = 3.0;
 
@@ -64,6 +67,11 @@ double GridSearch::costFactor(int cell) const {
   return kTightFactor - (kTightFactor - 1.0) * clearance / kPreferredClearance_m;
 }
 
+double GridSearch::shortcutClearance(double path_clearance_m) const {
+  const double clearance_m = std::min(path_clearance_m, kPreferredClearance_m);
+  return std::min(clearance_m, std::max(clearance_m - kCloser_m, kShortcutClearance_m));
+}
+
 double GridSearch::octileDistance(int a, int b) const {
   const int dx = std::abs(a % grid_.width() - b % grid_.width());
   const int dy = std::abs(a / grid_.width() - b / grid_.width());
@@ -115,8 +123,7 @@ std::vector<Eigen::Vector2d> GridSearch::shortcut(
     float least = grid_.clearanceAlong(points[at], points[reached]);
     for (std::size_t next = reached + 1; next < points.size(); ++next) {
       least = std::min(least, grid_.clearanceAlong(points[next - 1], points[next]));
-      const float wanted = std::min(least, static_cast<float>(kPreferredClearance_m));
-      if (grid_.clearanceAlong(points[at], points[next]) < wanted) break;
+      if (grid_.clearanceAlong(points[at], points[next]) < shortcutClearance(least)) break;
       reached = next;
     }
     corners.push_back(points[reached]);

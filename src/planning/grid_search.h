@@ -24,7 +24,7 @@ class GridSearch {
   std::vector<int> path(int from, int to) const;
 
   /// Way points from `start` to `goal` (anywhere in their free cells): the path's corners after
-  /// shortcuts that do not come closer to anything than the path did. Empty if there is no path.
+  /// shortcuts that hardly come closer to anything than the path did. Empty if there is no path.
   std::vector<Eigen::Vector2d> travel(const Eigen::Vector2d& start,
                                       const Eigen::Vector2d& goal) const;
 
@@ -33,6 +33,7 @@ class GridSearch {
   template <typename Visit>
   void visitNeighbours(int cell, Visit visit) const;
   double costFactor(int cell) const;
+  double shortcutClearance(double path_clearance_m) const;
   double octileDistance(int a, int b) const;
   std::vector<Eigen::Vector2d> shortcut(const std::vector<Eigen::Vector2d>& points) const;
 
