@@ -21,6 +21,13 @@ void ClearWayOptions::validate() const {
 }
 
 struct ClearWay::Data {
+  /// Pushes that are looked for.
+  struct Search {
+    ClearingRequest request;
+    PendingClearing pending;
+    bool may_move_others;  ///< If there are none while all others stand still.
+  };
+
   Data(PushPlan plan, RobotModel robot_model, ClearWayServices outside, ClearWayOptions all)
       : robot(std::move(robot_model)),
         services(std::move(outside)),
@@ -31,6 +38,7 @@ struct ClearWay::Data {
   ClearWayServices services;
   ClearWayOptions options;
   std::vector<PushPlan> ways;  ///< The plan, then those of the obstacles that are being cleared.
+  std::optional<Search> search;
   std::optional<ExecutePush> push;
   PushPlan rest;  ///< Of the obstacle's plan after that push.
   std::optional<std::vector<std::string>> first_blockers;  ///< Until the first tick.
@@ -47,7 +55,9 @@ struct ClearWay::Data {
   std::optional<PlacedObject> nextBlocker(const Observation& observation);
   void decide(const Observation& observation);
   void clear(const PlacedObject& obstacle, const Observation& observation);
-  ClearingResult search(const PlacedObject& obstacle, const Observation& observation) const;
+  void beginSearch(const PlacedObject& obstacle, const Observation& observation);
+  bool searchAmongMovable();
+  void searchOn();
   bool isAtRest(const std::string& id, const Observation& observation);
   void startPush();
   void end(BehaviourStatus how, const std::string& why);
@@ -55,6 +65,7 @@ struct ClearWay::Data {
 };
 
 void ClearWay::Data::end(BehaviourStatus how, const std::string& why) {
+  search.reset();
   status = how;
   text = why;
 }
@@ -91,8 +102,7 @@ std::optional<PlacedObject> ClearWay::Data::nextBlocker(const Observation& obser
   return PlacedObject{object->id, object->model, object->map_T_object};
 }
 
-ClearingResult ClearWay::Data::search(const PlacedObject& obstacle,
-                                      const Observation& observation) const {
+void ClearWay::Data::beginSearch(const PlacedObject& obstacle, const Observation& observation) {
   ClearingRequest request;
   request.obstacle = obstacle;
   request.ways = ways;
@@ -100,16 +110,35 @@ ClearingResult ClearWay::Data::search(const PlacedObject& obstacle,
   request.next_pushes = options.pushes_ahead;
   request.map_T_robot = observation.map_T_robot;
   request.deadline_s = options.deadline_s;
-  const ClearingResult alone = services.clear(request);
-  if (alone.found || static_cast<int>(ways.size()) >= options.max_depth) return alone;
-  // Others may be in its way in turn.
-  const auto last = std::remove_if(request.standing.begin(), request.standing.end(),
-                                   [this](const PlacedObject& other) {
-                                     return !isOnTheWay(other.id) && services.is_movable(other);
-                                   });
-  if (last == request.standing.end()) return alone;
-  request.standing.erase(last, request.standing.end());
-  return services.clear(request);
+  search = {request, services.clear(request), static_cast<int>(ways.size()) < options.max_depth};
+  searchOn();
+}
+
+// As if none of the others were there that may be in its way in turn. False if there are none.
+bool ClearWay::Data::searchAmongMovable() {
+  std::vector<PlacedObject>& standing = search->request.standing;
+  const auto last =
+      std::remove_if(standing.begin(), standing.end(), [this](const PlacedObject& other) {
+        return !isOnTheWay(other.id) && services.is_movable(other);
+      });
+  if (!search->may_move_others || last == standing.end()) return false;
+  standing.erase(last, standing.end());
+  search->may_move_others = false;
+  search->pending = services.clear(search->request);
+  return true;
+}
+
+void ClearWay::Data::searchOn() {
+  std::optional<ClearingResult> found = search->pending();
+  if (found && !found->found && searchAmongMovable()) found = search->pending();
+  if (!found) return;
+  const std::string id = search->request.obstacle.id;
+  search.reset();
+  if (!found->found || found->plan.pushes.empty()) {
+    getStuck(id, found->explanation);
+  } else {
+    ways.push_back(found->plan);
+  }
 }
 
 // As it was last seen: who pushes it looks again before.
@@ -131,12 +160,7 @@ void ClearWay::Data::clear(const PlacedObject& obstacle, const Observation& obse
     getStuck(obstacle.id, "still there after " + std::to_string(pushes) + " pushes");
     return;
   }
-  const ClearingResult found = search(obstacle, observation);
-  if (!found.found || found.plan.pushes.empty()) {
-    getStuck(obstacle.id, found.explanation);
-    return;
-  }
-  ways.push_back(found.plan);
+  beginSearch(obstacle, observation);
 }
 
 // One step down or up the stack of ways; what is in the way of the last one comes first.
@@ -185,7 +209,11 @@ Tick ClearWay::Data::pushOn(const Observation& observation) {
 
 Tick ClearWay::Data::run(const Observation& observation) {
   if (push) return pushOn(observation);
-  decide(observation);
+  if (search) {
+    searchOn();
+  } else {
+    decide(observation);
+  }
   return {};
 }
 

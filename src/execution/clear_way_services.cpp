@@ -40,6 +40,12 @@ std::vector<std::string> inTheRobotsWay(const PushPlanner& planner, const PushPl
 
 }  // namespace
 
+BeginClearing searchAtOnce(std::function<ClearingResult(const ClearingRequest&)> search) {
+  return [search = std::move(search)](const ClearingRequest& request) -> PendingClearing {
+    return [result = search(request)] { return std::optional<ClearingResult>(result); };
+  };
+}
+
 ApproachPlanner approachPlanner(const PlannerSource& planner, const std::string& object_id) {
   return [planner, object_id](const Observation& observation, const Pose2& goal,
                               double dock_direction_rad) {
@@ -74,9 +80,9 @@ ClearWayServices clearWayServices(const PlannerSource& planner, const std::strin
     if (!ids.empty()) return ids;
     return inTheRobotsWay(*current, plan, *all, others, observation.map_T_robot);
   };
-  services.clear = [planner, cases](const ClearingRequest& request) {
+  services.clear = searchAtOnce([planner, cases](const ClearingRequest& request) {
     return planner()->clear(request, *cases());
-  };
+  });
   services.go_on = [planner, cases](const PushPlan& rest, const Observation& observation) {
     std::optional<PushPlan> plan;
     const ObjectState* object = usableObject(observation, rest.object.id);

@@ -42,6 +42,7 @@ void PushTask::Data::end(PushTaskStatus final_status, const std::string& why) {
   if (stage == Stage::kPlan || is_repairing) {
     services.plans->cancel();
   }
+  estimate.reset();
   clear.reset();
   stage = Stage::kDone;
   status = final_status;
@@ -99,11 +100,18 @@ void PushTask::Data::requestPlan(const Observation& observation, const ObjectSta
 }
 
 Tick PushTask::Data::awaitPlan(const Observation& observation) {
-  const std::optional<PlanResult> result = services.plans->poll();
-  if (!result || asksForWayAround(*result, observation)) {
-    return {};
+  if (!around) {
+    const std::optional<PlanResult> result = services.plans->poll();
+    if (!result || asksForWayAround(*result, observation)) return {};
+    if (!through) return take(*result, observation);
+    around = *result;
+    estimateClearing(observation);
   }
-  const PlanResult chosen = through ? quicker(*result, observation) : *result;
+  const std::optional<PlanResult> chosen = quicker();
+  return chosen ? take(*chosen, observation) : Tick{};
+}
+
+Tick PushTask::Data::take(const PlanResult& chosen, const Observation& observation) {
   ++progress.plans;
   if (services.on_plan) {
     services.on_plan(chosen);
@@ -140,18 +148,13 @@ void PushTask::Data::acceptPlan(const PlanResult& result, const Observation& obs
 
 void PushTask::Data::rejectPlan(const PlanResult& result, const Observation& observation) {
   const ObjectState* object = usableObject(observation, goal.object_id);
-  switch (result.status) {
-    case PlanStatus::kInvalidRequest:
-    case PlanStatus::kNoCases:
-    case PlanStatus::kGoalInCollision:
-    case PlanStatus::kGoalOutsideMap:
-      end(PushTaskStatus::kInvalidGoal, result.explanation);
-      return;
-    case PlanStatus::kPlannerGone:
-      end(PushTaskStatus::kPlannerGone, result.explanation);
-      return;
-    default:
-      break;
+  if (isInvalidGoal(result.status)) {
+    end(PushTaskStatus::kInvalidGoal, result.explanation);
+    return;
+  }
+  if (result.status == PlanStatus::kPlannerGone) {
+    end(PushTaskStatus::kPlannerGone, result.explanation);
+    return;
   }
   if (object != nullptr && goal.tolerance.isMet(goal.map_T_goal, object->map_T_object)) {
     end(PushTaskStatus::kSucceeded, goal.object_id + " is at the goal, within the tolerance");
@@ -222,8 +225,7 @@ PushTask::PushTask(PushTaskGoal goal, RobotModel robot, PushTaskServices service
   data_ = std::make_unique<Data>(std::move(goal), std::move(robot), std::move(services), options);
   data_->progress.phase = "look";
   if (!isSensible(data_->goal)) {
-    data_->end(PushTaskStatus::kInvalidGoal,
-               "the goal pose must be finite, tolerances and time limit positive");
+    data_->end(PushTaskStatus::kInvalidGoal, kNotSensible);
   }
 }
 

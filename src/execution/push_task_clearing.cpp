@@ -74,56 +74,34 @@ bool PushTask::Data::asksForWayAround(const PlanResult& result, const Observatio
     return false;
   }
   through = result;
-  PlanRequest around = request;
-  around.obstacles = all;
-  services.plans->request(around);
+  PlanRequest with_all = request;
+  with_all.obstacles = all;
+  services.plans->request(with_all);
   return true;
 }
 
-// Of all that stands in the way, one after another; those that do not go first may go later.
-double PushTask::Data::clearingTimeS(const PushPlan& way, const Observation& observation) const {
+void PushTask::Data::estimateClearing(const Observation& observation) {
   std::vector<PlacedObject> all = otherObjects(observation, goal.object_id);
-  std::vector<std::string> left = services.in_the_way(way, movableOnes(all, request.obstacles));
-  double time_s = 0.0;
-  for (bool goes_on = true; goes_on && !left.empty();) {
-    goes_on = false;
-    for (auto id = left.begin(); id != left.end();) {
-      ClearingRequest clearing;
-      PlacedObject* obstacle = nullptr;
-      for (PlacedObject& object : all) {
-        if (object.id == *id) {
-          obstacle = &object;
-        } else {
-          clearing.standing.push_back(object);
-        }
-      }
-      clearing.obstacle = *obstacle;
-      clearing.standing.push_back(request.object);
-      clearing.ways = {way};
-      clearing.next_pushes = options.clear.pushes_ahead;
-      clearing.map_T_robot = observation.map_T_robot;
-      clearing.deadline_s = options.clear.deadline_s;
-      const ClearingResult found = services.clearing->clear(clearing);
-      if (!found.found) {
-        ++id;
-        continue;
-      }
-      time_s += found.expected_s;
-      obstacle->map_T_object = found.plan.pushes.back().map_outcome.mean;
-      id = left.erase(id);
-      goes_on = true;
-    }
-  }
-  return left.empty() ? time_s : std::numeric_limits<double>::infinity();
+  std::vector<std::string> blockers =
+      services.in_the_way(through->plan, movableOnes(all, request.obstacles));
+  estimate.emplace(through->plan, std::move(blockers), std::move(all), observation.map_T_robot,
+                   *services.clearing, options.clear);
 }
 
-// By expected time.
-PlanResult PushTask::Data::quicker(const PlanResult& around, const Observation& observation) {
-  const PlanResult straight = std::move(*through);
+// By expected time, as soon as that is known.
+std::optional<PlanResult> PushTask::Data::quicker() {
+  double through_s = 0.0;
+  if (around->status == PlanStatus::kSolved) {
+    const std::optional<double> clearing_s = estimate->poll();
+    if (!clearing_s) return std::nullopt;
+    through_s = through->expected_s + *clearing_s;
+  }
+  const bool goes_around = around->status == PlanStatus::kSolved && around->expected_s <= through_s;
+  PlanResult chosen = goes_around ? *around : *through;
+  estimate.reset();
+  around.reset();
   through.reset();
-  if (around.status != PlanStatus::kSolved) return straight;
-  const double through_s = straight.expected_s + clearingTimeS(straight.plan, observation);
-  return through_s < around.expected_s ? straight : around;
+  return chosen;
 }
 
 // False if nobody is in the way of the next push.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "casepush/execution/push_task.h"
+#include "clearing_estimate.h"
 #include "rest_of_plan.h"
 #include "watches.h"
 
@@ -39,7 +40,9 @@ struct PushTask::Data {
   PlanRequest request;
   std::vector<PlacedObject> known;  ///< All others that the plan was last compared with.
   std::optional<ExecutePush> push;
-  std::optional<PlanResult> through;  ///< A plan through movable objects, while one around is made.
+  std::optional<PlanResult> through;  ///< A plan through movable objects, while one around is made,
+  std::optional<PlanResult> around;   ///< and that, while it is estimated what clearing takes.
+  std::optional<ClearingEstimate> estimate;
   std::optional<ClearWay> clear;
   std::set<std::string> immovable;  ///< What could not be cleared away.
   std::optional<ObjectState> last_seen;
@@ -63,8 +66,9 @@ struct PushTask::Data {
   std::vector<PlacedObject> obstacles(const Observation& observation) const;
   std::string newcomerInTheWay(const PushPlan& rest_of_plan, const Observation& observation);
   bool asksForWayAround(const PlanResult& result, const Observation& observation);
-  double clearingTimeS(const PushPlan& way, const Observation& observation) const;
-  PlanResult quicker(const PlanResult& around, const Observation& observation);
+  std::optional<PlanResult> quicker();
+  Tick take(const PlanResult& chosen, const Observation& observation);
+  void estimateClearing(const Observation& observation);
   bool beginClearing(const Observation& observation);
   void enter(Stage next, const char* phase, const std::string& what, double now_s);
   void end(PushTaskStatus final_status, const std::string& why);

@@ -95,6 +95,11 @@ PushTaskServices completeServices(PushTaskServices services, const std::string& 
   return services;
 }
 
+bool isInvalidGoal(PlanStatus status) {
+  return status == PlanStatus::kInvalidRequest || status == PlanStatus::kNoCases ||
+         status == PlanStatus::kGoalInCollision || status == PlanStatus::kGoalOutsideMap;
+}
+
 bool isSensible(const PushTaskGoal& goal) {
   return goal.map_T_goal.isFinite() && goal.tolerance.position_m > 0.0 &&
          goal.tolerance.yaw_rad > 0.0 && goal.time_limit_s > 0.0;

@@ -12,6 +12,12 @@ PushTaskServices completeServices(PushTaskServices services, const std::string& 
 
 /// True if the goal pose is finite and tolerances and time limit are positive.
 bool isSensible(const PushTaskGoal& goal);
+constexpr const char* kNotSensible =
+    "the goal pose must be finite, tolerances and time limit positive";
+
+/// True if no other attempt can find a plan: there are no cases, or the goal is in a collision or
+/// outside of the map.
+bool isInvalidGoal(PlanStatus status);
 
 /// True if the object is within the goal's tolerance by a margin: the pose is observed with some
 /// error, and what counts is where the object really is. The margin is two standard deviations, but

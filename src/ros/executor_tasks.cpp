@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "casepush/common/input_error.h"
+#include "casepush/ros/background_clearing.h"
 #include "casepush/ros/executor_node.h"
 #include "casepush/ros/push_conversions.h"
 #include "casepush/ros/transforms.h"
@@ -98,6 +99,7 @@ PushTaskServices ExecutorNode::taskServices(const std::string& object_id) {
   services.in_the_way = inTheWay();
   services.approach = approachPlanner(planner, object_id);
   services.clearing = clearWayServices(planner, parameters_.furnishing.robot.name, services.cases);
+  services.clearing->clear = searchInBackground(planner, services.cases);
   return services;
 }
 

@@ -14,6 +14,16 @@ namespace casepush {
 /// Gives the current cases of all objects; the same vector until one of them changes.
 using CaseSource = std::function<std::shared_ptr<const std::vector<Case>>()>;
 
+/// A search for the pushes of an obstacle that goes on elsewhere. Asked for its result again and
+/// again until there is one; whoever drops it gives it up.
+using PendingClearing = std::function<std::optional<ClearingResult>()>;
+
+/// Begins a search.
+using BeginClearing = std::function<PendingClearing(const ClearingRequest&)>;
+
+/// Searches in the caller's thread: the result is there at once.
+BeginClearing searchAtOnce(std::function<ClearingResult(const ClearingRequest&)> search);
+
 struct ClearWayOptions {
   ExecutePushOptions push;
   int max_pushes = 20;  ///< Of all obstacles together.
@@ -31,7 +41,7 @@ struct ClearWayServices {
   /// Ids of the movable objects that so many of the plan's next pushes, or the robot's way to the
   /// first of them, would hit.
   std::function<std::vector<std::string>(const PushPlan&, const Observation&, int pushes)> blockers;
-  std::function<ClearingResult(const ClearingRequest&)> clear;
+  BeginClearing clear;
   /// The rest of an obstacle's plan from where it came to rest; nothing if its next push would
   /// collide.
   std::function<std::optional<PushPlan>(const PushPlan& rest, const Observation&)> go_on;
@@ -41,7 +51,8 @@ struct ClearWayServices {
   std::function<void(const PushReport&)> on_report;  ///< Called once for each push.
 };
 
-/// All of them but on_report from a planner, which is asked for anew each time.
+/// All of them but on_report from a planner, which is asked for anew each time; it searches at
+/// once.
 /// @param cases  An object without cases of this robot is not movable.
 ClearWayServices clearWayServices(const PlannerSource& planner, const std::string& robot,
                                   const CaseSource& cases);

@@ -22,10 +22,10 @@ class ClearWayTest : public testing::Test {
                            std::abs(chair->map_T_object.y()) < kClearM;
       return blocked ? std::vector<std::string>{"chair_1"} : std::vector<std::string>{};
     };
-    services.clear = [this](const ClearingRequest& request) {
+    services.clear = searchAtOnce([this](const ClearingRequest& request) {
       requests.push_back(request);
       return sideways(request);
-    };
+    });
     services.go_on = [](const PushPlan&, const Observation&) { return std::optional<PushPlan>(); };
     services.is_movable = [](const PlacedObject&) { return true; };
     services.cases = [](const std::string&) { return learntCases(); };
@@ -79,11 +79,11 @@ TEST_F(ClearWayTest, PushesUntilTheWayIsClear) {
 }
 
 TEST_F(ClearWayTest, NamesWhatCannotBeClearedAndCommandsZero) {
-  services.clear = [](const ClearingRequest&) {
+  services.clear = searchAtOnce([](const ClearingRequest&) {
     ClearingResult result;
     result.explanation = "no room";
     return result;
-  };
+  });
   ClearWay clear = clearWay();
   EXPECT_EQ(run(clear, world), BehaviourStatus::kFailed);
   EXPECT_EQ(clear.stuckObstacle(), "chair_1");
@@ -92,12 +92,12 @@ TEST_F(ClearWayTest, NamesWhatCannotBeClearedAndCommandsZero) {
 }
 
 TEST_F(ClearWayTest, GoesOnWithThePlanOfAnObstacleAsLongAsItMay) {
-  services.clear = [this](const ClearingRequest& request) {
+  services.clear = searchAtOnce([this](const ClearingRequest& request) {
     requests.push_back(request);
     ClearingResult result = sideways(request);
     result.plan.pushes.push_back(result.plan.pushes.front());
     return result;
-  };
+  });
   std::size_t rests = 0;
   services.go_on = [&rests](const PushPlan& rest, const Observation&) {
     ++rests;
@@ -126,6 +126,36 @@ TEST_F(ClearWayTest, GivesUpOnAnObstacleThatRollsOnForEver) {
   EXPECT_EQ(run(clear, world), BehaviourStatus::kFailed);
   EXPECT_EQ(clear.stuckObstacle(), "chair_1");
   EXPECT_EQ(clear.pushes(), 0);
+}
+
+TEST_F(ClearWayTest, StandsStillWhilePushesAreLookedFor) {
+  int asked = 0;
+  const BeginClearing at_once = services.clear;
+  services.clear = [&](const ClearingRequest& request) -> PendingClearing {
+    return [&asked, pending = at_once(request)] { return ++asked < 10 ? std::nullopt : pending(); };
+  };
+  ClearWay clear = clearWay();
+  while (asked < 9) {
+    const Tick tick = clear.tick(world.observe());
+    ASSERT_EQ(tick.status, BehaviourStatus::kRunning);
+    ASSERT_TRUE(isZero(tick.command.twist));
+    world.advance(tick.command.twist);
+  }
+  EXPECT_EQ(requests.size(), 1U);
+  EXPECT_EQ(run(clear, world, 300.0), BehaviourStatus::kSucceeded) << clear.describe();
+}
+
+TEST_F(ClearWayTest, GivesUpASearchWhenCancelled) {
+  const auto is_alive = std::make_shared<int>();
+  services.clear = [&](const ClearingRequest&) -> PendingClearing {
+    return [is_alive] { return std::optional<ClearingResult>(); };
+  };
+  ClearWay clear = clearWay();
+  clear.tick(world.observe());
+  ASSERT_GT(is_alive.use_count(), 1);
+  clear.cancel();
+  EXPECT_EQ(is_alive.use_count(), 1);
+  EXPECT_EQ(clear.tick(world.observe()).status, BehaviourStatus::kFailed);
 }
 
 TEST_F(ClearWayTest, StopsWhenCancelled) {
@@ -159,7 +189,7 @@ TEST_F(ClearWayTest, ClearsFirstWhatIsInTheWayOfTheObstacle) {
         plan.object.id == "table_1" && std::abs(now.object("chair_1")->map_T_object.y()) < kClearM;
     return blocked ? std::vector<std::string>{"chair_1"} : std::vector<std::string>{};
   };
-  services.clear = [&](const ClearingRequest& request) {
+  services.clear = searchAtOnce([&](const ClearingRequest& request) {
     asked.push_back(request.obstacle.id);
     if (request.obstacle.id == "crate_1") {
       EXPECT_EQ(request.ways.size(), 2U);
@@ -169,7 +199,7 @@ TEST_F(ClearWayTest, ClearsFirstWhatIsInTheWayOfTheObstacle) {
     result.found = !(request.obstacle.id == "chair_1" && !crate_is_away && stands(request));
     if (request.obstacle.id == "crate_1") result.plan.object.id = "chair_1";
     return result;
-  };
+  });
   ClearWay clear = clearWay();
   const auto end_s = world.now_s + 300.0;
   BehaviourStatus status = BehaviourStatus::kRunning;

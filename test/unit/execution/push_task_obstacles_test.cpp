@@ -29,11 +29,11 @@ class PushTaskObstaclesTest : public PushTaskTest {
       ++looks;
       return is_in_the_way ? std::vector<std::string>{"cart_1"} : std::vector<std::string>{};
     };
-    clearing.clear = [](const ClearingRequest&) {
+    clearing.clear = searchAtOnce([](const ClearingRequest&) {
       ClearingResult none;
       none.explanation = "no room";
       return none;
-    };
+    });
     clearing.go_on = [](const PushPlan&, const Observation&) { return std::optional<PushPlan>(); };
     clearing.is_movable = [](const PlacedObject&) { return true; };
     clearing.cases = [](const std::string&) { return learntCases(); };
