@@ -7,6 +7,7 @@
 
 #include "casepush/common/input_error.h"
 #include "casepush/common/violations.h"
+#include "push_task_rules.h"
 #include "watches.h"
 
 namespace casepush {
@@ -15,6 +16,9 @@ namespace {
 void checkGoals(const std::vector<PushTaskGoal>& tasks) {
   if (tasks.empty()) throw InputError("rearrange", "there is no goal");
   for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (!isSensible(tasks[i])) {
+      throw InputError("rearrange", tasks[i].object_id + ": " + kNotSensible);
+    }
     for (std::size_t k = 0; k < i; ++k) {
       if (tasks[k].object_id == tasks[i].object_id) {
         throw InputError("rearrange",
@@ -181,8 +185,15 @@ void Rearrange::Data::plan(const Observation& observation) {
     return;
   }
   if (const std::optional<PlanResult> result = services.plans->poll()) {
-    if (result->status == PlanStatus::kSolved) plans[next] = result->plan;
     asked = false;
+    if (isInvalidGoal(result->status)) {
+      Item& item = items[left[next]];
+      item.status = PushTaskStatus::kInvalidGoal;
+      item.explanation = result->explanation;
+      end(PushTaskStatus::kInvalidGoal, item.object_id + ": " + result->explanation);
+      return;
+    }
+    if (result->status == PlanStatus::kSolved) plans[next] = result->plan;
     ++next;
   }
 }

@@ -41,11 +41,14 @@ std::vector<int> bestOrder(int count, const std::vector<std::pair<int, int>>& wi
 /// Each object's way is planned as if the others were not there. An object that stands on the way
 /// of another goes before it; one whose goal lies on the way of another goes after it. Whatever an
 /// order cannot avoid is left to the push tasks, which go around or clear the way. Tasks that
-/// failed and objects that were moved again get another round.
+/// failed and objects that were moved again get another round. If a goal can never be met (in a
+/// collision with what stands still, outside of the map, no cases of the object), nothing is
+/// pushed.
 class Rearrange : public Behaviour {
  public:
-  /// @throws InputError from the options, if a service is missing, if there is no goal or an object
-  ///   has two.
+  /// @throws InputError from the options, if a service is missing, if there is no goal, a goal
+  /// makes no sense
+  ///   or an object has two.
   Rearrange(RearrangeRequest goal, RearrangeServices services, RearrangeOptions options);
   ~Rearrange() override;
 
@@ -53,7 +56,8 @@ class Rearrange : public Behaviour {
   std::string describe() const override;
   void cancel();  ///< The next tick ends it.
 
-  /// kRunning, kSucceeded, kCancelled, kTimeout, kRobotLost, kPlannerGone, or kNoProgress if some
+  /// kRunning, kSucceeded, kCancelled, kInvalidGoal,
+  /// kTimeout, kRobotLost, kPlannerGone, or kNoProgress if some
   /// objects are not at their goals after all rounds.
   PushTaskStatus status() const;
   bool isLooking() const;  ///< Before the order of the first round is chosen.

@@ -102,7 +102,7 @@ TEST_F(RearrangeTest, LeavesAloneWhatIsAtItsGoal) {
 
 TEST_F(RearrangeTest, WhoStandsInTheWayGoesFirstAndFailuresAreTriedAgain) {
   addCrate(Pose2(1.0, 0.5, 0.0), Pose2(4.0, 3.0, 0.0));
-  wanted.tasks[1].tolerance.position_m = 0.0;  // Refused at once.
+  wanted.tasks[1].time_limit_s = 0.01;  // Fails at once.
   rearranging.in_the_way = [](const PushPlan& plan, const std::vector<PlacedObject>& there) {
     const bool blocked = plan.object.id == "chair_1" && there.front().id == "crate_1" &&
                          there.front().map_T_object.x() < 2.0;
@@ -113,15 +113,45 @@ TEST_F(RearrangeTest, WhoStandsInTheWayGoesFirstAndFailuresAreTriedAgain) {
   EXPECT_EQ(runAll(rearrange), BehaviourStatus::kFailed);
   EXPECT_EQ(started, (std::vector<std::string>{"crate_1", "chair_1", "crate_1"}));
   EXPECT_EQ(rearrange.items()[0].status, PushTaskStatus::kSucceeded);
-  EXPECT_EQ(rearrange.items()[1].status, PushTaskStatus::kInvalidGoal);
+  EXPECT_EQ(rearrange.items()[1].status, PushTaskStatus::kTimeout);
   EXPECT_NE(rearrange.describe().find("crate_1"), std::string::npos);
   EXPECT_EQ(rearrange.status(), PushTaskStatus::kNoProgress);
+}
+
+TEST_F(RearrangeTest, RefusesGoalsThatMakeNoSense) {
+  addCrate(Pose2(-4.0, 3.0, 0.0), Pose2(4.0, 3.0, 0.0));
+  wanted.tasks[1].tolerance.position_m = 0.0;
+  try {
+    Rearrange rearrange(wanted, rearranging, rearrange_options);
+    FAIL() << "nobody noticed";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("crate_1: the goal pose must be finite"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(RearrangeTest, PushesNothingIfAGoalCanNeverBeMet) {
+  addCrate(Pose2(-4.0, 3.0, 0.0), Pose2(4.0, 3.0, 0.0));
+  plans.answer = [](const PlanRequest& request) {
+    if (request.object.id != "crate_1") return searchPlan(request);
+    PlanResult none;
+    none.status = PlanStatus::kGoalInCollision;
+    none.explanation = "the goal is in a wall";
+    return none;
+  };
+  Rearrange rearrange(wanted, rearranging, rearrange_options);
+  EXPECT_EQ(runAll(rearrange), BehaviourStatus::kFailed);
+  EXPECT_TRUE(started.empty());
+  EXPECT_EQ(rearrange.status(), PushTaskStatus::kInvalidGoal);
+  EXPECT_EQ(rearrange.describe(), "crate_1: the goal is in a wall");
+  EXPECT_EQ(rearrange.items()[1].status, PushTaskStatus::kInvalidGoal);
 }
 
 TEST_F(RearrangeTest, AGoalOnAnothersWayGoesLast) {
   addCrate(Pose2(-4.0, 3.0, 0.0), Pose2(1.0, 0.5, 0.0));
   std::swap(wanted.tasks[0], wanted.tasks[1]);
-  wanted.tasks[0].tolerance.position_m = 0.0;
+  wanted.tasks[0].time_limit_s = 0.01;
   rearranging.in_the_way = [](const PushPlan& plan, const std::vector<PlacedObject>& there) {
     const bool blocked = plan.object.id == "chair_1" && there.front().map_T_object.x() > 0.0;
     return blocked ? std::vector<std::string>{"crate_1"} : std::vector<std::string>{};
