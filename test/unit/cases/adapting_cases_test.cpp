@@ -24,8 +24,7 @@ class AdaptingCasesTest : public ::testing::Test {
  protected:
   /// Pushes case `number` (0 to 3) of the present ones; it ends at `share` of the way it used to.
   std::string push(int number, double share) {
-    const std::vector<Case> cases = adapting_.cases();
-    const Case predicted = *findCase(cases, known_[number].id);
+    const Case predicted = present(number);
     const Case original = known_[number];
     const Pose2& mean = original.start_outcome.mean;
     PushReport report;
@@ -40,6 +39,15 @@ class AdaptingCasesTest : public ::testing::Test {
     report.test = testPrediction({predicted.start_outcome, predicted.effective_count},
                                  observedPush(report).start_T_object, 0.01);
     return adapting_.learnFrom(report);
+  }
+  /// The case that is pushed instead of one of those known, in the present circumstances.
+  Case present(int number) {
+    const std::map<std::int64_t, std::int64_t> family_of = families(base_.cases());
+    for (const Case& push_case : adapting_.cases()) {
+      if (family_of.at(push_case.id) == known_[number].id) return push_case;
+    }
+    ADD_FAILURE() << "no case for " << known_[number].id;
+    return known_[number];
   }
   /// Pushes one case after the other until a change is noticed.
   std::string pushUntilNoticed(double share, int most) {
