@@ -68,6 +68,7 @@ struct Rearrange::Data {
   bool asked = false;
   int round = 0;
   std::unique_ptr<PushTask> task;
+  double task_began_s = 0.0;
   std::optional<double> began_s;
   double stage_began_s = 0.0;
 
@@ -78,17 +79,20 @@ struct Rearrange::Data {
   void chooseOrder(const Observation& observation);
   Tick runTask(const Observation& observation);
   std::vector<int> unmet(const Observation& observation) const;
-  void endTask();
+  void endTask(PushTaskStatus how, const std::string& why);
   void end(PushTaskStatus how, const std::string& why);
   std::string failures() const;
 };
 
 // Notes how far the task has come.
-void Rearrange::Data::endTask() {
+void Rearrange::Data::endTask(PushTaskStatus how, const std::string& why) {
   Item& item = items[order[next]];
-  item.status = task->status();
-  item.explanation = task->describe();
+  item.status = how;
+  item.explanation = why;
   item.pushes += task->progress().pushes;
+  if (services.on_task_end) {
+    services.on_task_end(goal.tasks[order[next]], *task, how, why, task_began_s);
+  }
   task.reset();
 }
 
@@ -96,9 +100,7 @@ void Rearrange::Data::end(PushTaskStatus how, const std::string& why) {
   if (stage == Stage::kOrder && asked) services.plans->cancel();
   if (task) {
     task->cancel();  // Whatever it waits for.
-    endTask();
-    items[order[next]].status = how;
-    items[order[next]].explanation = why;
+    endTask(how, why);
   }
   stage = Stage::kDone;
   status = how;
@@ -231,12 +233,13 @@ Tick Rearrange::Data::runTask(const Observation& observation) {
     }
     task = services.make_task(goal.tasks[order[next]]);
     ++items[order[next]].attempts;
+    task_began_s = observation.stamp_s;
   }
   Tick tick = task->tick(observation);
   const Item& item = items[order[next]];
   text = item.object_id + ": " + task->describe();
   if (tick.status == BehaviourStatus::kRunning) return tick;
-  endTask();
+  endTask(task->status(), task->describe());
   if (is_cancelled) {
     end(PushTaskStatus::kCancelled, "cancelled");
   } else if (item.status == PushTaskStatus::kRobotLost ||
@@ -314,5 +317,6 @@ const std::vector<Rearrange::Item>& Rearrange::items() const { return data_->ite
 const std::vector<int>& Rearrange::order() const { return data_->order; }
 std::size_t Rearrange::turn() const { return data_->next; }
 const PushTask* Rearrange::task() const { return data_->task.get(); }
+double Rearrange::taskBeganS() const { return data_->task_began_s; }
 
 }  // namespace casepush

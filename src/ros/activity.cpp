@@ -137,35 +137,40 @@ PushObjectResult PushObjectActivity::result(ActivityEnd how, const std::string& 
   return result;
 }
 
-std::optional<TaskSummary> PushObjectActivity::summary(ActivityEnd how,
-                                                       const std::string& explanation,
-                                                       double now_s) const {
-  const PushTaskProgress& progress = task_.progress();
-  const PushObjectResult ended = result(how, explanation, now_s);
+TaskSummary summaryOf(const std::string& goal_id, const PushTaskGoal& goal, const PushTask& task,
+                      ActivityEnd how, PushTaskStatus status, const std::string& explanation,
+                      double start_stamp_s) {
+  const PushTaskProgress& progress = task.progress();
   TaskSummary summary;
-  summary.goal_id = goalId();
-  summary.object_id = task_goal_.object_id;
-  summary.goal = toMessage(task_goal_.map_T_goal);
-  summary.position_tolerance = task_goal_.tolerance.position_m;
-  summary.yaw_tolerance = task_goal_.tolerance.yaw_rad;
-  summary.start_stamp = toRosTime(startStamp().value_or(0.0));
-  summary.status = statusName(how, task_.status());
-  summary.explanation = ended.explanation;
-  summary.position_error = ended.position_error;
-  summary.yaw_error = ended.yaw_error;
-  summary.plan_length = ended.plan_length;
-  summary.plans = ended.plans;
-  summary.repairs = ended.repairs;
+  summary.goal_id = goal_id;
+  summary.object_id = goal.object_id;
+  summary.goal = toMessage(goal.map_T_goal);
+  summary.position_tolerance = goal.tolerance.position_m;
+  summary.yaw_tolerance = goal.tolerance.yaw_rad;
+  summary.start_stamp = toRosTime(start_stamp_s);
+  summary.status = statusName(how, status);
+  summary.explanation = explanation.empty() ? task.describe() : explanation;
+  summary.position_error = progress.distance_to_goal_m;
+  summary.yaw_error = std::abs(progress.yaw_to_goal_rad);
+  summary.plan_length = progress.plan_length_m;
+  summary.plans = count(progress.plans);
+  summary.repairs = count(progress.repairs);
   std::transform(progress.pushes_per_plan.begin(), progress.pushes_per_plan.end(),
                  std::back_inserter(summary.pushes_of_plans), count);
-  summary.pushes = ended.pushes;
+  summary.pushes = count(progress.pushes);
   summary.clearing_pushes = count(progress.clearing_pushes);
-  summary.rejected_predictions = ended.rejected_predictions;
+  summary.rejected_predictions = count(progress.rejected_predictions);
   std::transform(progress.replan_history.begin(), progress.replan_history.end(),
                  std::back_inserter(summary.replan_causes),
                  [](ReplanCause cause) { return toString(cause); });
   summary.replan_reasons = progress.replan_reasons;
   return summary;
+}
+
+std::optional<TaskSummary> PushObjectActivity::summary(ActivityEnd how,
+                                                       const std::string& explanation) const {
+  return summaryOf(goalId(), task_goal_, task_, how, task_.status(), explanation,
+                   startStamp().value_or(0.0));
 }
 
 void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation, double now_s) {

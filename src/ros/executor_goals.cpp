@@ -91,7 +91,7 @@ void ExecutorNode::onRearrange(RearrangeServer::GoalHandle goal) {
                                         parameters_.task);
     };
     auto activity = std::make_unique<RearrangeActivity>(goal, request, rearrangeServices(),
-                                                        make_task, reportSink());
+                                                        make_task, reportSink(), summarySink());
     goal.setAccepted();
     begin(std::move(activity));
     return missing;

@@ -240,12 +240,18 @@ void ExecutorNode::finish() {
   const std::unique_ptr<Activity> ended = std::move(activity_);
   last_end_ = end_explanation_.empty() ? ended->describe() : end_explanation_;
   publishState(last_stamp_s_);
-  if (std::optional<TaskSummary> summary = ended->summary(end_, end_explanation_, last_stamp_s_)) {
-    summary->header.stamp = toRosTime(last_stamp_s_);
-    summary->header.frame_id = names::kMapFrame;
-    summaries_.publish(*summary);
+  if (std::optional<TaskSummary> summary = ended->summary(end_, end_explanation_)) {
+    summarySink()(*summary);
   }
   ended->finish(end_, end_explanation_, last_stamp_s_);
+}
+
+SummarySink ExecutorNode::summarySink() {
+  return [this](TaskSummary summary) {
+    summary.header.stamp = toRosTime(last_stamp_s_);
+    summary.header.frame_id = names::kMapFrame;
+    summaries_.publish(summary);
+  };
 }
 
 ReportSink ExecutorNode::reportSink() {

@@ -19,14 +19,16 @@ static_assert(RearrangeResult::TIMEOUT == static_cast<int>(PushTaskStatus::kTime
 
 RearrangeActivity::RearrangeActivity(RearrangeServer::GoalHandle goal, RearrangeRequest request,
                                      RearrangeServices services, TaskMaker make_task,
-                                     ReportSink sink)
+                                     ReportSink sink, SummarySink summaries)
     : GoalActivity(std::move(goal), rearrange_),
       request_(std::move(request)),
-      rearrange_(request_, complete(std::move(services), std::move(make_task), std::move(sink)),
+      rearrange_(request_,
+                 complete(std::move(services), std::move(make_task), std::move(sink),
+                          std::move(summaries)),
                  RearrangeOptions{}) {}
 
 RearrangeServices RearrangeActivity::complete(RearrangeServices services, TaskMaker make_task,
-                                              ReportSink sink) {
+                                              ReportSink sink, SummarySink summaries) {
   services.make_task = [this, make_task = std::move(make_task),
                         sink = std::move(sink)](const PushTaskGoal& task) {
     return make_task(task, [this, sink, adapt = task.adapt,
@@ -34,7 +36,21 @@ RearrangeServices RearrangeActivity::complete(RearrangeServices services, TaskMa
       sink(report, reportContext(rearrange_.task()->progress(), adapt, report, &told));
     });
   };
+  services.on_task_end = [this, summaries = std::move(summaries)](
+                             const PushTaskGoal& goal, const PushTask& task, PushTaskStatus how,
+                             const std::string& why, double began_s) {
+    summaries(summaryOf(goalId(), goal, task, ActivityEnd::kFinished, how, why, began_s));
+  };
   return services;
+}
+
+std::optional<TaskSummary> RearrangeActivity::summary(ActivityEnd how,
+                                                      const std::string& explanation) const {
+  const PushTask* task = rearrange_.task();
+  if (task == nullptr) return std::nullopt;
+  const PushTaskGoal& goal = request_.tasks[rearrange_.order()[rearrange_.turn()]];
+  return summaryOf(goalId(), goal, *task, how, task->status(), explanation,
+                   rearrange_.taskBeganS());
 }
 
 Tick RearrangeActivity::tick(const Observation& observation) {

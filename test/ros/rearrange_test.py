@@ -17,7 +17,7 @@ from geometry_msgs.msg import Pose2D
 import harness
 from casepush.msg import (BodyPose, ExecutorState, ObjectGoal, Octomap, PushableObjectArray,
                           PushCaseArray, PushObjectAction, PushObjectGoal, PushObjectResult,
-                          RearrangeAction, RearrangeGoal, RearrangeResult)
+                          RearrangeAction, RearrangeGoal, RearrangeResult, TaskSummary)
 from casepush.srv import ImportCases, SetPoses
 
 STARTS = {"chair_1": (-2.4, 0.0), "chair_2": (0.0, 0.0)}
@@ -104,6 +104,7 @@ class RearrangeTest(unittest.TestCase):
                              seed=2)
         self.ready(self.rearrange, goal)
         feedback = harness.Recorder("executor/state", ExecutorState)
+        summaries = harness.Recorder("task_summaries", TaskSummary)
         result = harness.result_of(self.rearrange, 130.0)
         self.assertEqual(result.status, RearrangeResult.SUCCEEDED, result.explanation)
         phases = set(state.phase for _, state in feedback.all()
@@ -117,6 +118,14 @@ class RearrangeTest(unittest.TestCase):
             self.assertLessEqual(entry.position_error, 0.5)
         self.assertLess(self.error_m("chair_1", 1.6, 0.4), 0.55)
         self.assertLess(self.error_m("chair_2", 1.6, -1.8), 0.55)
+        told = [summary for _, summary in summaries.all()]
+        for entry in result.objects:
+            own = [summary for summary in told if summary.object_id == entry.object_id]
+            self.assertEqual(len(own), entry.turns)
+            self.assertEqual(sum(summary.pushes for summary in own), entry.pushes)
+            self.assertEqual(own[-1].status, "succeeded", own[-1].explanation)
+            self.assertGreater(own[-1].start_stamp.to_sec(), 0.0)
+        self.assertEqual(len({summary.goal_id for summary in told}), 1)
 
     def test_refuses_what_cannot_be(self):
         fine = wanted("chair_1", 1.0, 0.4)

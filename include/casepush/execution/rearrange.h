@@ -22,13 +22,18 @@ struct RearrangeOptions {
   void validate() const;         ///< @throws InputError listing every violation.
 };
 
-/// All are required.
+/// All but on_task_end are required.
 struct RearrangeServices {
   PlanClient* plans = nullptr;  ///< Must outlive the behaviour.
   std::function<std::unique_ptr<PushTask>(const PushTaskGoal&)> make_task;
   /// Ids of the objects that the plan would hit.
   std::function<std::vector<std::string>(const PushPlan&, const std::vector<PlacedObject>&)>
       in_the_way;
+  /// Called once for each task when it has ended, in whatever way.
+  /// @param began_s  Its first observation's stamp.
+  std::function<void(const PushTaskGoal& goal, const PushTask& task, PushTaskStatus how,
+                     const std::string& why, double began_s)>
+      on_task_end;
 };
 
 /// An order of `count` things that keeps as many wishes "first before second" as possible; of equal
@@ -47,8 +52,7 @@ std::vector<int> bestOrder(int count, const std::vector<std::pair<int, int>>& wi
 class Rearrange : public Behaviour {
  public:
   /// @throws InputError from the options, if a service is missing, if there is no goal, a goal
-  /// makes no sense
-  ///   or an object has two.
+  /// makes no sense or an object has two.
   Rearrange(RearrangeRequest goal, RearrangeServices services, RearrangeOptions options);
   ~Rearrange() override;
 
@@ -56,9 +60,8 @@ class Rearrange : public Behaviour {
   std::string describe() const override;
   void cancel();  ///< The next tick ends it.
 
-  /// kRunning, kSucceeded, kCancelled, kInvalidGoal,
-  /// kTimeout, kRobotLost, kPlannerGone, or kNoProgress if some
-  /// objects are not at their goals after all rounds.
+  /// kRunning, kSucceeded, kCancelled, kInvalidGoal, kTimeout, kRobotLost, kPlannerGone, or
+  /// kNoProgress if some objects are not at their goals after all rounds.
   PushTaskStatus status() const;
   bool isLooking() const;  ///< Before the order of the first round is chosen.
 
@@ -74,6 +77,7 @@ class Rearrange : public Behaviour {
   const std::vector<int>& order() const;  ///< Of the last round; empty before it is known.
   std::size_t turn() const;               ///< Index in order() of the task that runs.
   const PushTask* task() const;           ///< The one that runs; nullptr if none does.
+  double taskBeganS() const;              ///< The stamp of its first observation.
 
  private:
   struct Data;

@@ -38,6 +38,14 @@ using ReportSink = std::function<void(const PushReport&, const ReportContext&)>;
 ReportContext reportContext(const PushTaskProgress& progress, bool adapt, const PushReport& report,
                             std::size_t* reported_replans);
 
+/// What is to be recorded of a task, without header.
+/// @param goal_id, start_stamp_s  Of the action's goal, and when the task began.
+/// @param how, status, explanation  How it ended.
+TaskSummary summaryOf(const std::string& goal_id, const PushTaskGoal& goal, const PushTask& task,
+                      ActivityEnd how, PushTaskStatus status, const std::string& explanation,
+                      double start_stamp_s);
+using SummarySink = std::function<void(TaskSummary)>;
+
 /// A behaviour that an action goal asked for.
 class Activity {
  public:
@@ -53,8 +61,7 @@ class Activity {
 
   /// What is to be recorded of it when it has ended, without header; nothing if it is no task.
   virtual std::optional<TaskSummary> summary(ActivityEnd /*end*/,
-                                             const std::string& /*explanation*/,
-                                             double /*now_s*/) const {
+                                             const std::string& /*explanation*/) const {
     return std::nullopt;
   }
 
@@ -101,8 +108,8 @@ class PushObjectActivity : public GoalActivity<PushObjectServer::GoalHandle, Pus
 
   ExecutorState state() const override;
   void publishFeedback() override;
-  std::optional<TaskSummary> summary(ActivityEnd end, const std::string& explanation,
-                                     double now_s) const override;
+  std::optional<TaskSummary> summary(ActivityEnd end,
+                                     const std::string& explanation) const override;
   void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
 
  private:

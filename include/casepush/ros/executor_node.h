@@ -78,7 +78,8 @@ class ExecutorNode {
   Twist2 safeCommand(const Observation& observation, const Twist2& wanted);
   void end(ActivityEnd how, const std::string& explanation);
   void finish();
-  ReportSink reportSink();  ///< Publishes what it is called with.
+  ReportSink reportSink();  ///< Both publish what they are called with.
+  SummarySink summarySink();
   void publishReport(const PushReport& report, const ReportContext& context);
   void publishState(double now_s);
   void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -23,18 +23,23 @@ class RearrangeActivity : public GoalActivity<RearrangeServer::GoalHandle, Rearr
   using TaskMaker = std::function<std::unique_ptr<PushTask>(const PushTaskGoal&, OnReport)>;
 
   /// @param services  But for make_task.
-  /// @param sink      Called for each push.
+  /// @param sink      Called for each push, `summaries` for each task that has ended.
   /// @throws InputError if there is no goal or an object has two.
   RearrangeActivity(RearrangeServer::GoalHandle goal, RearrangeRequest request,
-                    RearrangeServices services, TaskMaker make_task, ReportSink sink);
+                    RearrangeServices services, TaskMaker make_task, ReportSink sink,
+                    SummarySink summaries);
 
   Tick tick(const Observation& observation) override;
   ExecutorState state() const override;
   void publishFeedback() override;
+  /// Of the task that was under way when all was stopped.
+  std::optional<TaskSummary> summary(ActivityEnd end,
+                                     const std::string& explanation) const override;
   void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
 
  private:
-  RearrangeServices complete(RearrangeServices services, TaskMaker make_task, ReportSink sink);
+  RearrangeServices complete(RearrangeServices services, TaskMaker make_task, ReportSink sink,
+                             SummarySink summaries);
   RearrangedObject resultOf(std::size_t index) const;
 
   RearrangeRequest request_;

@@ -48,6 +48,13 @@ class RearrangeTest : public PushTaskTest {
     rearranging.in_the_way = [](const PushPlan&, const std::vector<PlacedObject>&) {
       return std::vector<std::string>{};
     };
+    rearranging.on_task_end = [this](const PushTaskGoal& each, const PushTask& task,
+                                     PushTaskStatus how, const std::string& why, double began_s) {
+      ended.emplace_back(each.object_id, how);
+      EXPECT_FALSE(why.empty());
+      EXPECT_LE(began_s, world.now_s);
+      EXPECT_GE(task.progress().pushes, 0);
+    };
     wanted.tasks = {goal};
   }
 
@@ -77,6 +84,9 @@ class RearrangeTest : public PushTaskTest {
     return BehaviourStatus::kRunning;
   }
 
+  using Ends = std::vector<std::pair<std::string, PushTaskStatus>>;
+
+  Ends ended;
   RearrangeRequest wanted;
   RearrangeServices rearranging;
   RearrangeOptions rearrange_options;
@@ -116,6 +126,9 @@ TEST_F(RearrangeTest, WhoStandsInTheWayGoesFirstAndFailuresAreTriedAgain) {
   EXPECT_EQ(rearrange.items()[1].status, PushTaskStatus::kTimeout);
   EXPECT_NE(rearrange.describe().find("crate_1"), std::string::npos);
   EXPECT_EQ(rearrange.status(), PushTaskStatus::kNoProgress);
+  EXPECT_EQ(ended, (Ends{{"crate_1", PushTaskStatus::kTimeout},
+                         {"chair_1", PushTaskStatus::kSucceeded},
+                         {"crate_1", PushTaskStatus::kTimeout}}));
 }
 
 TEST_F(RearrangeTest, RefusesGoalsThatMakeNoSense) {
@@ -171,6 +184,7 @@ TEST_F(RearrangeTest, CancelEndsItStandingStill) {
   EXPECT_TRUE(isZero(tick.command.twist));
   EXPECT_EQ(rearrange.status(), PushTaskStatus::kCancelled);
   EXPECT_EQ(rearrange.items()[0].status, PushTaskStatus::kCancelled);
+  EXPECT_EQ(ended, (Ends{{"chair_1", PushTaskStatus::kCancelled}}));
 }
 
 TEST_F(RearrangeTest, EndsWhenItsTimeIsUp) {
@@ -181,6 +195,7 @@ TEST_F(RearrangeTest, EndsWhenItsTimeIsUp) {
   EXPECT_LT(world.now_s, began_s + 10.0);
   EXPECT_EQ(rearrange.status(), PushTaskStatus::kTimeout);
   EXPECT_EQ(rearrange.items()[0].status, PushTaskStatus::kTimeout);
+  EXPECT_EQ(ended, (Ends{{"chair_1", PushTaskStatus::kTimeout}}));
 }
 
 TEST_F(RearrangeTest, RefusesBadGoals) {
