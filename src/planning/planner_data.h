@@ -80,8 +80,8 @@ struct PushPlanner::Data {
                           const SearchClock& clock) const;
   Attempt searchLevel(const SearchProblem& problem, PushChecker* push_checker,
                       const SafetyLevel& safety, GoalGuide* guide, const SearchClock& clock) const;
-  PlanResult searchShortOnesLast(const PlanRequest& request, const std::vector<const Case*>& cases,
-                                 const SearchClock& clock) const;
+  PlanResult searchFinestLast(const PlanRequest& request, const std::vector<const Case*>& cases,
+                              const SearchClock& clock) const;
   void improve(const PlanRequest& request, const std::vector<const Case*>& cases,
                const SearchClock& clock, PlanResult* result) const;
   ClearingResult clearAway(const ClearingRequest& request, const PlanRequest& plan_request,

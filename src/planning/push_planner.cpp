@@ -117,13 +117,17 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
   return outcome;
 }
 
+/// Does it leave poses out that are too near to others?
+bool isSpaced(const PushPlannerOptions& options) {
+  return options.planner == PlannerKind::kExpRrt && options.similarity == Similarity::kMetric;
+}
+
 /// Until the deadline. Other seeds lead elsewhere; other planners would only find the same again.
 bool searchesAgain(const PushPlannerOptions& options) {
   PushPlannerOptions patient = options;
   patient.improveUntilDeadline();
   return options.solutions == patient.solutions &&
-         options.improvement_extensions == patient.improvement_extensions &&
-         options.planner == PlannerKind::kExpRrt && options.similarity == Similarity::kMetric;
+         options.improvement_extensions == patient.improvement_extensions && isSpaced(options);
 }
 
 /// Is it as safe, and quicker?
@@ -163,7 +167,7 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
                                               "\"; learn some first");
   } else {
     try {
-      result = data_->searchShortOnesLast(request, own, clock);
+      result = data_->searchFinestLast(request, own, clock);
       PlanRequest again = request;
       while (searchesAgain(data_->options) && result.status == PlanStatus::kSolved &&
              !result.plan.pushes.empty() && !clock.isOver()) {
@@ -266,26 +270,39 @@ PushPlanner::Data::Attempt PushPlanner::Data::searchLevel(const SearchProblem& p
   return attempt;
 }
 
-// Shortened cases (negative ids) multiply what a search has to look at, so they wait until the
-// whole ones lead nowhere.
-PlanResult PushPlanner::Data::searchShortOnesLast(const PlanRequest& request,
-                                                  const std::vector<const Case*>& cases,
-                                                  const SearchClock& clock) const {
+// Poses near to one another, and shortened cases (negative ids), multiply what a search has to look
+// at. So they wait until the others lead nowhere: in a tight spot a few centimetres decide.
+PlanResult PushPlanner::Data::searchFinestLast(const PlanRequest& request,
+                                               const std::vector<const Case*>& cases,
+                                               const SearchClock& clock) const {
+  constexpr double kFiner = 0.25;
   std::vector<const Case*> whole;
   std::copy_if(cases.begin(), cases.end(), std::back_inserter(whole),
                [](const Case* push_case) { return push_case->id >= 0; });
-  PlanResult result = search(request, whole.empty() ? cases : whole, clock);
-  const bool is_worth_it = result.status == PlanStatus::kUnreachable && options.relax &&
-                           !whole.empty() && whole.size() < cases.size() && !clock.isOver();
-  if (!is_worth_it) return result;
-  PlanResult short_steps = search(request, cases, clock);
-  return short_steps.status == PlanStatus::kSolved ? short_steps : result;
+  if (whole.empty()) whole = cases;
+  PlanResult result = search(request, whole, clock);
+  const auto is_worth_another = [&](const PlanResult& last) {
+    return last.status == PlanStatus::kUnreachable && options.relax && !clock.isOver();
+  };
+  if (!is_worth_another(result)) return result;
+  Data finer = *this;
+  PlanResult other = result;
+  if (isSpaced(options) && result.nodes < options.max_nodes) {
+    finer.options.spacing_m *= kFiner;
+    other = finer.search(request, whole, clock);
+  }
+  if (is_worth_another(other) && whole.size() < cases.size()) {
+    other = finer.search(request, cases, clock);
+  }
+  const bool says_more =
+      other.status == PlanStatus::kSolved || other.status == PlanStatus::kCancelled;
+  return says_more ? other : result;
 }
 
 // Searches once more and takes what is better.
 void PushPlanner::Data::improve(const PlanRequest& request, const std::vector<const Case*>& cases,
                                 const SearchClock& clock, PlanResult* result) const {
-  PlanResult other = searchShortOnesLast(request, cases, clock);
+  PlanResult other = searchFinestLast(request, cases, clock);
   const int nodes = result->nodes + other.nodes;
   const int collision_checks = result->collision_checks + other.collision_checks;
   if (isBetter(other, *result)) *result = std::move(other);

@@ -67,6 +67,19 @@ TEST_F(DeadEndTest, aPushThatCannotBeAppliedIsNone) {
   EXPECT_FALSE(blocked.may_get_stuck);
 }
 
+TEST(FinerSearch, followsIfNodesThatAreFarApartLeadNowhere) {
+  PushPlannerOptions coarse = quick();
+  coarse.spacing_m = 0.8;
+  coarse.relax = false;
+  const PlanRequest request = requestFor(kStart, kGoal);
+  const std::vector<Case> cases = syntheticPushes(14, 7);
+  EXPECT_EQ(plannerFor(furnishedRoom(), coarse)->plan(request, cases).status,
+            PlanStatus::kUnreachable);
+  coarse.relax = true;
+  const PlanResult found = plannerFor(furnishedRoom(), coarse)->plan(request, cases);
+  EXPECT_EQ(found.status, PlanStatus::kSolved) << found.explanation;
+}
+
 TEST_F(DeadEndTest, plansWithoutAnotherWaySayWhereTheyMayEndInOne) {
   PlanRequest request = requestFor(Pose2(12.4, 7.5, 0.0), Pose2(14.2, 7.5, 0.0));
   const PlanResult safe = planner_->plan(request, pushes(1));
