@@ -6,6 +6,7 @@ import os
 import shutil
 import sys
 import tempfile
+import time
 import unittest
 
 import actionlib
@@ -98,6 +99,20 @@ class RearrangeTest(unittest.TestCase):
         self.assertGreater(result.pushes, 0)
         self.assertLess(self.error_m("chair_1", 2.4, 0.0), 0.55)
         self.assertGreater(self.error_m("chair_2", 0.0, 0.0), 0.1)
+
+    def test_stops_at_once_while_it_looks_for_a_way_to_clear(self):
+        goal = PushObjectGoal(object_id="chair_1", goal=harness.pose(2.4, 0.0, 0.0),
+                              position_tolerance=0.5, yaw_tolerance=math.pi, seed=3,
+                              clear_obstacles=True)
+        self.ready(self.push_object, goal)
+        self.state.wait(lambda state: state.activity == ExecutorState.PUSHING_OBJECT
+                        and state.phase == "clear", 60.0)
+        began_s = time.monotonic()
+        self.push_object.cancel_goal()
+        result = harness.result_of(self.push_object)
+        self.assertLess(time.monotonic() - began_s, 0.5)
+        self.assertEqual(result.status, PushObjectResult.CANCELLED, result.explanation)
+        self.assertEqual(result.clearing_pushes, 0)
 
     def test_brings_two_objects_to_their_goals(self):
         goal = RearrangeGoal(goals=[wanted("chair_1", 1.6, 0.4), wanted("chair_2", 1.6, -1.8)],
