@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "casepush/common/input_error.h"
 #include "casepush/common/same_pose.h"
 #include "context_view.h"
 #include "predictive.h"
@@ -179,7 +180,9 @@ std::pair<std::int64_t, bool> AdaptingCases::memberFor(std::int64_t id,
   if (context == PushContext{}) return {id, false};
   ContextView view(known, context);
   if (const Case* member = view.member(id)) return {member->id, false};
-  Case copy = view.expected(*findCase(known, id));
+  const Case* const original = findCase(known, id);
+  if (original == nullptr) throw InputError("case " + std::to_string(id), "it no longer exists");
+  Case copy = view.expected(*original);
   copy.source_id = id;
   copy.observation_count = 0;  // None in this context.
   copy.context = context;

@@ -41,6 +41,7 @@ void PushTask::Data::enter(Stage next, const char* phase, const std::string& wha
 void PushTask::Data::end(PushTaskStatus final_status, const std::string& why) {
   if (stage == Stage::kPlan || is_repairing) {
     services.plans->cancel();
+    is_repairing = false;
   }
   estimate.reset();
   clear.reset();
@@ -133,20 +134,27 @@ void PushTask::Data::acceptPlan(const PlanResult& result, const Observation& obs
     replan(ReplanCause::kObjectMoved, goal.object_id + " was moved during planning", observation);
     return;
   }
-  plan = result.plan;
+  progress.beginPlan();
+  progress.push_index = 0;
+  notePlan(result);
+  startPush(observation);
+}
+
+// Of a plan, or of what follows the present push.
+void PushTask::Data::notePlan(const PlanResult& made) {
+  plan = made.plan;
   const double length_m = plan->lengthM();
   if (progress.plan_length_m == 0.0) {
     progress.plan_length_m = length_m;
   }
   plans_without_progress = length_m < shortest_plan_m - kProgressM ? 0 : plans_without_progress + 1;
   shortest_plan_m = std::min(shortest_plan_m, length_m);
-  progress.beginPlan();
-  progress.push_index = 0;
-  progress.push_count = static_cast<int>(plan->pushes.size());
-  startPush(observation);
+  progress.push_count = progress.push_index + static_cast<int>(plan->pushes.size());
+  accepted_dead_end = made.dead_end > 0 ? progress.push_index + made.dead_end : 0;
 }
 
 void PushTask::Data::rejectPlan(const PlanResult& result, const Observation& observation) {
+  dropRepair();
   const ObjectState* object = usableObject(observation, goal.object_id);
   if (isInvalidGoal(result.status)) {
     end(PushTaskStatus::kInvalidGoal, result.explanation);
@@ -229,7 +237,9 @@ PushTask::PushTask(PushTaskGoal goal, RobotModel robot, PushTaskServices service
   }
 }
 
-PushTask::~PushTask() = default;
+PushTask::~PushTask() {
+  if (data_->stage == Data::Stage::kPlan || data_->is_repairing) data_->services.plans->cancel();
+}
 
 Tick PushTask::tick(const Observation& observation) {
   Tick tick;

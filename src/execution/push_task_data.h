@@ -53,6 +53,7 @@ struct PushTask::Data {
   int plans_without_progress = 0;
   bool is_repairing = false;   ///< A plan for what comes after the present push is being made.
   bool repair_failed = false;  ///< The last one was.
+  int accepted_dead_end = 0;   ///< Push of the plan (from 1) that no other plan could do without.
   double shortest_plan_m = std::numeric_limits<double>::infinity();
 
   Tick run(const Observation& observation);
@@ -83,6 +84,8 @@ struct PushTask::Data {
   bool beginRepair(const RestVerdict& verdict, const PushPlan& rest_of_plan,
                    const Observation& observation);
   void endRepair();
+  void dropRepair();
+  void notePlan(const PlanResult& made);
   void replan(ReplanCause cause, const std::string& why, const Observation& observation);
   void measure(const Observation& observation);
 };

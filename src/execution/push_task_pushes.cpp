@@ -138,8 +138,10 @@ void PushTask::Data::judgeOutcome(const PushReport& report, const Observation& o
 
 void PushTask::Data::goOn(const PushReport& report, const ObjectState& object,
                           const Observation& observation) {
-  const PushPlanner::Continuation rest_of_plan =
+  PushPlanner::Continuation rest_of_plan =
       services.continue_plan(*plan, object.map_T_object, *services.cases(), obstacles(observation));
+  // The planner knows of no way without it.
+  if (accepted_dead_end == progress.push_index + 1) rest_of_plan.may_get_stuck = false;
   const RestVerdict verdict = judgeRest(rest_of_plan, options.rest);
   const std::string newcomer = newcomerInTheWay(rest_of_plan.plan, observation);
   if (!newcomer.empty()) {
@@ -161,8 +163,7 @@ void PushTask::Data::replan(ReplanCause cause, const std::string& why,
   progress.replan_history.push_back(cause);
   progress.replan_reasons.push_back(why);
   if (!isLimitReached()) {
-    is_repairing = false;
-    repair_failed = false;
+    dropRepair();
     rest.reset();
     enter(Stage::kLook, "look", "planning anew: " + why, observation.stamp_s);
   }

@@ -41,10 +41,15 @@ void PushTask::Data::endRepair() {
   ++progress.plans;
   if (services.on_plan) services.on_plan(*tail);
   if (repair_failed) return;
-  plan = tail->plan;
   ++progress.repairs;
   progress.pushes_unchanged.push_back(0);
-  progress.push_count = progress.push_index + static_cast<int>(plan->pushes.size());
+  notePlan(*tail);
+}
+
+void PushTask::Data::dropRepair() {
+  if (is_repairing) services.plans->cancel();
+  is_repairing = false;
+  repair_failed = false;
 }
 
 }  // namespace casepush

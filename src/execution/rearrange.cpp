@@ -28,6 +28,12 @@ void checkGoals(const std::vector<PushTaskGoal>& tasks) {
   }
 }
 
+/// Whatever else happens.
+bool canNeverBeMet(const PlanResult& result) {
+  return result.status == PlanStatus::kNoCases || result.status == PlanStatus::kGoalOutsideMap ||
+         result.status == PlanStatus::kGoalInCollision;
+}
+
 bool contains(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
@@ -156,7 +162,7 @@ std::string Rearrange::Data::failures() const {
   return list;
 }
 
-// As if no object that has a goal of its own stood around.
+// As if no object that has a goal of its own, or may be cleared away, stood around.
 void Rearrange::Data::plan(const Observation& observation) {
   if (next == left.size()) {
     chooseOrder(observation);
@@ -178,7 +184,8 @@ void Rearrange::Data::plan(const Observation& observation) {
       const bool has_goal = std::any_of(items.begin(), items.end(), [&other](const Item& item) {
         return item.object_id == other.id;
       });
-      if (!has_goal) request.obstacles.push_back(other);
+      // One that may be cleared away will be gone when its turn comes.
+      if (!has_goal && !wanted.clear_obstacles) request.obstacles.push_back(other);
     }
     request.seed = wanted.seed;
     request.deadline_s = options.plan_deadline_s;
@@ -188,7 +195,7 @@ void Rearrange::Data::plan(const Observation& observation) {
   }
   if (const std::optional<PlanResult> result = services.plans->poll()) {
     asked = false;
-    if (isInvalidGoal(result->status)) {
+    if (round == 1 && canNeverBeMet(*result)) {
       Item& item = items[left[next]];
       item.status = PushTaskStatus::kInvalidGoal;
       item.explanation = result->explanation;

@@ -103,8 +103,8 @@ PushPlanner::Continuation PushPlanner::continuePlan(
   result.plan.object.map_T_object = map_T_object;
   data_->chain(cases, &checker, &result);
   result.valid = result.explanation.empty();
-  result.may_get_stuck =
-      result.applicable > 0 && data_->mayGetStuck(result.plan, cases, obstacles, placed, &checker);
+  result.may_get_stuck = result.applicable > 0 && keepsOutOfDeadEnds(data_->options) &&
+                         data_->mayGetStuck(result.plan, cases, obstacles, placed, &checker);
   compoundPushes(&result.plan);
   return result;
 }

@@ -15,9 +15,11 @@ namespace casepush {
 /// A plan needs its pushes to fit from their mean start poses only, and an object that came to rest
 /// a centimetre beside one may stand where no case can be applied: too near to a wall to be pushed
 /// from there, say. So each pose that a push may end in, the mean of its outcome and the sigma
-/// points twice the standard deviation away, must have a way on: eight cases that can be applied one
-/// after the other to poses that differ (each safe at its own sigma points, and the robot gets to
-/// its start), or fewer that lead to the goal.
+/// points twice the standard deviation away, must have a way on: eight cases that can be applied
+/// one after the other to poses that differ (each safe at its own sigma points, and the robot gets
+/// to its start), or fewer that lead to the goal. A depth-first search looks for them, which comes
+/// to no pose twice and gives up after many tests, so that it may see a dead end where there is
+/// none, and none where there is one.
 class DeadEndCheck {
  public:
   /// Cases by index, prepared when they are first asked for.
@@ -28,7 +30,10 @@ class DeadEndCheck {
                ApproachVerifier* approaches);
 
   /// @param push  That is begun with the object at rest at `map_T_start`.
-  bool mayEndInOne(const Pose2& map_T_start, const PreparedCase& push);
+  /// @param stop  Asked often; once it says true, the answer is no. Empty: never. So is the answer
+  ///              if many tests were not enough to tell.
+  bool mayEndInOne(const Pose2& map_T_start, const PreparedCase& push,
+                   const std::function<bool()>& stop = {});
 
  private:
   /// @param pushes  So many more, from where `previous` left robot and object.
@@ -39,6 +44,9 @@ class DeadEndCheck {
   GetCase cases_;
   PushChecker* checker_;
   ApproachVerifier* approaches_;
+  bool mustStop();
+
+  const std::function<bool()>* stop_ = nullptr;  // Of the present call.
   int tests_left_ = 0;
   std::unordered_set<std::uint64_t> visited_;  // Cells of poses that were pushed on from.
   int last_ = 0;  // The case that was found last: mostly it fits the next time, too.

@@ -43,6 +43,7 @@ bool mayStart(const std::vector<Contact>& contacts, const CollisionChecker& chec
 
 /// "(1.23, -0.50, 90 deg)"
 std::string describe(const Pose2& pose);
+/// With so many digits after the point.
 std::string rounded(double value, int digits);
 
 }  // namespace casepush

@@ -71,6 +71,11 @@ ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& spac
 
 }  // namespace
 
+bool keepsOutOfDeadEnds(const PushPlannerOptions& options) {
+  return options.planner == PlannerKind::kExpRrt && options.similarity == Similarity::kMetric &&
+         options.improvement_extensions > 0;
+}
+
 std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const PushChecker& checker,
                                           double zeta, const SearchClock& clock) {
   const double step_m = kStepPerCell * checker.collisions().columns().resolution_m;
@@ -158,8 +163,7 @@ PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
       approaches_(problem, checker->collisions()) {
   rrt_.setProblemDefinition(definition_);
   rrt_.setup();
-  if (problem.options.improvement_extensions > 0 && !safety.first_plan_will_do &&
-      problem.options.similarity == Similarity::kMetric) {
+  if (keepsOutOfDeadEnds(problem.options) && !safety.first_plan_will_do) {
     const auto get = [this](int push) -> const PreparedCase& { return rrt_.cases()[push]; };
     dead_ends_ = std::make_unique<DeadEndCheck>(
         problem.request, static_cast<int>(rrt_.cases().size()), get, checker, &approaches_);
@@ -191,7 +195,7 @@ PlanSearch::End PlanSearch::run(const SearchClock& clock) {
       rrt_.reject(*unreachable);
       continue;
     }
-    const int dead_end = findDeadEnd(chain);
+    const int dead_end = findDeadEnd(chain, clock);
     if (dead_end < 0 || !solution_) solution_ = solutionOf(chain, dead_end);
     if (dead_end < 0 || ++dead_end_count_ > kMostDeadEnds) return End::kFound;
     rrt_.reject(chain[dead_end]);
@@ -319,13 +323,17 @@ bool ApproachVerifier::canApproachSimply(const Pose2& map_T_object, const Prepar
                              : quick_.canFollow(object, *previous, next);
 }
 
-int PlanSearch::findDeadEnd(const std::vector<int>& chain) {
+int PlanSearch::findDeadEnd(const std::vector<int>& chain, const SearchClock& clock) {
   if (!dead_ends_) return -1;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     if (std::find(open_ended_.begin(), open_ended_.end(), chain[i]) != open_ended_.end()) continue;
     const PushNode& pushed = rrt_.tree().node(chain[i]);
     const Pose2& map_T_start = rrt_.tree().node(pushed.parent).map_T_object;
-    if (dead_ends_->mayEndInOne(map_T_start, rrt_.cases()[pushed.push])) return static_cast<int>(i);
+    const PreparedCase& push = rrt_.cases()[pushed.push];
+    const bool may_end =
+        dead_ends_->mayEndInOne(map_T_start, push, [&clock] { return clock.isOver(); });
+    if (may_end) return static_cast<int>(i);
+    if (clock.isOver()) return -1;
     open_ended_.push_back(chain[i]);
   }
   return -1;

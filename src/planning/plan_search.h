@@ -62,6 +62,9 @@ struct SearchProblem {
   const ObjectRoom& room;
 };
 
+/// Whether plans made with these options keep out of dead ends where they can (DeadEndCheck).
+bool keepsOutOfDeadEnds(const PushPlannerOptions& options);
+
 /// Decides whether the robot can get from push to push.
 class ApproachVerifier {
  public:
@@ -162,7 +165,7 @@ class PlanSearch {
   std::optional<int> findUnreachable(const std::vector<int>& chain, const SearchClock& clock);
   bool canApproach(int node);
   /// Where in the chain the object may get stuck first; -1 if nowhere.
-  int findDeadEnd(const std::vector<int>& chain);
+  int findDeadEnd(const std::vector<int>& chain, const SearchClock& clock);
   Solution solutionOf(const std::vector<int>& chain, int dead_end) const;
   End endWithout(const SearchClock& clock) const;
 

@@ -231,8 +231,9 @@ PlanResult PushPlanner::Data::searchLevels(const SearchProblem& problem, PushChe
   for (std::size_t i = 1; i < levels.size() && attempt.is_worth_relaxing; ++i) {
     attempt = search(levels[i]);
   }
-  const bool is_late = attempt.result.status == PlanStatus::kDeadline;
-  return is_late && probe ? *probe : attempt.result;
+  const bool says_more = attempt.result.status == PlanStatus::kSolved ||
+                         attempt.result.status == PlanStatus::kCancelled;
+  return probe && !says_more ? *probe : attempt.result;
 }
 
 PushPlanner::Data::Attempt PushPlanner::Data::searchLevel(const SearchProblem& problem,

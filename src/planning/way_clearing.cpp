@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "casepush/common/input_error.h"
 #include "chain_plan.h"
 #include "clearing_search.h"
 #include "drive_field.h"
@@ -298,7 +299,11 @@ ClearingResult PushPlanner::clear(const ClearingRequest& request, const std::vec
     if (is_whole && isFor(each, request.obstacle.model, data_->robot.name)) own.push_back(&each);
   }
   if (own.empty()) return notCleared("there are no cases of " + request.obstacle.model);
-  return data_->clearAway(request, plan_request, own, cases, clock);
+  try {
+    return data_->clearAway(request, plan_request, own, cases, clock);
+  } catch (const InputError& error) {
+    return notCleared(error.what());  // A damaged case.
+  }
 }
 
 ClearingResult PushPlanner::Data::clearAway(const ClearingRequest& request,

@@ -248,6 +248,10 @@ void ExecutorNode::finish() {
 
 SummarySink ExecutorNode::summarySink() {
   return [this](TaskSummary summary) {
+    if (end_ == ActivityEnd::kStopped) {  // Which its behaviour does not know.
+      summary.status = "stopped";
+      summary.explanation = end_explanation_;
+    }
     summary.header.stamp = toRosTime(last_stamp_s_);
     summary.header.frame_id = names::kMapFrame;
     summaries_.publish(summary);

@@ -48,6 +48,7 @@ void LiveMapper::restart(Map start) {
   const std::lock_guard<std::mutex> lock(mutex_);
   map_ = std::move(fresh);
   changed_cells_ = 0;
+  is_urgent_ = false;
 }
 
 Map LiveMapper::map() const {

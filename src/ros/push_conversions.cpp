@@ -310,6 +310,7 @@ PlanPushResult toMessage(const PlanResult& result, double stamp_s) {
   message.explanation = result.explanation;
   message.plan = toMessage(result.plan, stamp_s);
   message.expected_time = result.expected_s;
+  message.dead_end = static_cast<std::uint32_t>(result.dead_end);
   message.bound = result.bound;
   message.nodes = static_cast<std::uint32_t>(result.nodes);
   message.collision_checks = static_cast<std::uint32_t>(result.collision_checks);
@@ -323,6 +324,7 @@ PlanResult fromMessage(const PlanPushResult& message) {
   result.explanation = message.explanation;
   result.plan = fromMessage(message.plan);
   result.expected_s = message.expected_time;
+  result.dead_end = static_cast<int>(message.dead_end);
   result.bound = message.bound;
   result.nodes = static_cast<int>(message.nodes);
   result.collision_checks = static_cast<int>(message.collision_checks);

@@ -13,9 +13,9 @@ constexpr double kPeriodS = 60.0;
 }  // namespace
 
 std::string StandTally::add(double now_s, double wall_s, const std::string& reason) {
-  const auto before = untold_.find(last_reason_);
-  if (before != untold_.end()) {
-    before->second.duration_s += std::clamp(now_s - last_s_, 0.0, kLongestTickS);
+  const double lasted_s = std::clamp(now_s - last_s_, 0.0, kLongestTickS);
+  if (!last_reason_.empty() && (reason == last_reason_ || untold_.count(last_reason_) > 0)) {
+    untold_[last_reason_].duration_s += lasted_s;
   }
   const bool begins = !reason.empty() && reason != last_reason_;
   last_reason_ = reason;
@@ -33,9 +33,13 @@ std::string StandTally::sumUp(double wall_s) const {
   line << std::fixed << std::setprecision(0) << "in the last " << wall_s - *told_wall_s_
        << " s the base was told to stand";
   for (const auto& [reason, entry] : untold_) {
-    line << (&entry == &untold_.begin()->second ? " " : ", ") << entry.times
-         << (entry.times == 1 ? " time" : " times") << std::setprecision(2) << " ("
-         << entry.duration_s << " s in all) because " << reason;
+    line << (&entry == &untold_.begin()->second ? " " : ", ");
+    if (entry.times == 0) {
+      line << "still";
+    } else {
+      line << entry.times << (entry.times == 1 ? " time" : " times");
+    }
+    line << std::setprecision(2) << " (" << entry.duration_s << " s in all) because " << reason;
   }
   return line.str();
 }

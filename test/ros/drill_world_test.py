@@ -72,8 +72,14 @@ class DrillWorldTest(drill.Drill):
             set_load(load)
         self.assertTrue(self.sources_of_noticed(), "nobody noticed the load")
         self.assertLessEqual(self.sources_of_noticed(), originals.keys())
+        # The change may be taken for an earlier one by a push or two, which are then taken back.
+        stored = self.observations()
         for case, before in originals.items():
-            self.assertEqual(self.observations()[case][:len(before)], before)
+            kept = min(len(before), len(stored[case]))
+            self.assertEqual(stored[case][:kept], before[:kept])
+        lost = sum(len(before) - len(stored[case]) for case, before in originals.items()
+                   if len(stored[case]) < len(before))
+        self.assertLessEqual(lost, 3)
 
 
 if __name__ == "__main__":

@@ -14,14 +14,13 @@ namespace casepush {
 /// says; the covariance stays that of the whole case, which scatters more.
 /// @param share  Of the steps at full speed, what is kept: in [0, 1).
 /// @return  Nothing if there is nothing to leave out, or if the robot moved along the object by
-/// more
-///   than 4 cm or 0.15 rad meanwhile, so that the two ends do not fit together. Its id is negative:
-///   it is not stored, and what it does teaches the case nothing.
+///   more than 4 cm or 0.15 rad meanwhile, so that the two ends do not fit together. Its id is
+///   negative: it is not stored, and what it does teaches the case nothing.
 /// @pre The case passes validateCase and has a positive id.
 std::optional<Case> shortenedCase(const Case& push_case, double share);
 
-/// The cases and, after them, the shortened ones of each, unless they hold some already. More than 500
-/// cases are left alone: so many hold short pushes enough.
+/// The cases and, after them, the shortened ones of each, unless they hold some already. More than
+/// 500 cases are left alone: so many hold short pushes enough.
 std::vector<Case> withShortened(std::vector<Case> cases);
 
 /// Was it made by shortenedCase()?

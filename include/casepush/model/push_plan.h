@@ -97,8 +97,8 @@ struct PlanResult {
   int collision_checks = 0;
   double expected_s = 0.0;  ///< Time that the plan's execution will take, with its risks.
   double bound = 0.0;       ///< The plan costs at most this times the cheapest one; 0: unknown.
-  /// Push (from 1) that may leave the object where no case can be applied, though the mean does not;
-  /// no other plan was found. 0: none, or not looked at.
+  /// Push (from 1) that may leave the object where no case can be applied, though its mean does not,
+  /// and no other plan was found. 0: none, or not looked at.
   int dead_end = 0;
   double planning_s = 0.0;  ///< Wall time; the only field that a seed does not fix.
   std::vector<TreeEdge> tree;

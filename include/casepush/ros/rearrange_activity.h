@@ -24,7 +24,7 @@ class RearrangeActivity : public GoalActivity<RearrangeServer::GoalHandle, Rearr
 
   /// @param services  But for make_task.
   /// @param sink      Called for each push, `summaries` for each task that has ended.
-  /// @throws InputError if there is no goal or an object has two.
+  /// @throws InputError as Rearrange.
   RearrangeActivity(RearrangeServer::GoalHandle goal, RearrangeRequest request,
                     RearrangeServices services, TaskMaker make_task, ReportSink sink,
                     SummarySink summaries);

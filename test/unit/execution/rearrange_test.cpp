@@ -161,6 +161,20 @@ TEST_F(RearrangeTest, PushesNothingIfAGoalCanNeverBeMet) {
   EXPECT_EQ(rearrange.items()[1].status, PushTaskStatus::kInvalidGoal);
 }
 
+TEST_F(RearrangeTest, PlansTheOrderWithoutWhatMayBeClearedAway) {
+  crate.id = "crate_1";  // Without a goal of its own.
+  crate.model = "disc";
+  crate.map_T_object = wanted.tasks[0].map_T_goal;
+  for (const bool clear : {false, true}) {
+    plans.requests.clear();
+    wanted.tasks[0].clear_obstacles = clear;
+    Rearrange rearrange(wanted, rearranging, rearrange_options);
+    runAll(rearrange, 1.0);
+    ASSERT_FALSE(plans.requests.empty());
+    EXPECT_EQ(plans.requests.front().obstacles.size(), clear ? 0U : 1U);
+  }
+}
+
 TEST_F(RearrangeTest, AGoalOnAnothersWayGoesLast) {
   addCrate(Pose2(-4.0, 3.0, 0.0), Pose2(1.0, 0.5, 0.0));
   std::swap(wanted.tasks[0], wanted.tasks[1]);

@@ -35,6 +35,18 @@ TEST(StandTally, sumsUpWhatFollowsOnceAMinute) {
   EXPECT_EQ(tick(200.0, ""), "");
 }
 
+TEST(StandTally, tellsThatTheBaseStillStands) {
+  StandTally tally;
+  std::string last;
+  for (int i = 0; i <= 1250; ++i) {
+    const std::string line = tally.add(0.1 * i, 0.1 * i, "a is stale");
+    if (!line.empty()) last = line;
+  }
+  EXPECT_EQ(last,
+            "in the last 60 s the base was told to stand still (60.00 s in all) because a is "
+            "stale");
+}
+
 TEST(StandTally, leavesJumpsOfTheClockOut) {
   StandTally tally;
   tally.add(1.0, 0.0, "b is stale");
