@@ -16,8 +16,8 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 import harness
-from casepush.msg import (ExecutePushGoal, ExecutePushResult, LearnObjectAction, LearnObjectGoal,
-                          LearnObjectResult, PushCase)
+from casepush.msg import (ExecutePushGoal, ExecutePushResult, ExecutorState, LearnObjectAction,
+                          LearnObjectGoal, LearnObjectResult, PushCase)
 from casepush.srv import StartDemonstration, StopDemonstration
 from pushing import PushingTest
 
@@ -105,6 +105,7 @@ class DemonstrationTest(PushingTest):
         client = actionlib.SimpleActionClient("learn_object", LearnObjectAction)
         harness.wait_until(client.action_client.wait_for_server, what="learn_object")
         client.send_goal(LearnObjectGoal(object_id=harness.OBJECT, cases=1, practices=3, seed=1))
+        self.state.wait(lambda m: m.activity == ExecutorState.EXECUTING_PUSH)
         self.assertFalse(self.begin(harness.OBJECT).success)
         result = harness.result_of(client, 90.0)
         self.assertEqual(result.status, LearnObjectResult.DONE, result.explanation)
