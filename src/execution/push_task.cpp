@@ -38,11 +38,13 @@ void PushTask::Data::enter(Stage next, const char* phase, const std::string& wha
   text = what;
 }
 
+void PushTask::Data::cancelPlanning() {
+  if (stage == Stage::kPlan || is_repairing) services.plans->cancel();
+  is_repairing = false;
+}
+
 void PushTask::Data::end(PushTaskStatus final_status, const std::string& why) {
-  if (stage == Stage::kPlan || is_repairing) {
-    services.plans->cancel();
-    is_repairing = false;
-  }
+  cancelPlanning();
   estimate.reset();
   clear.reset();
   stage = Stage::kDone;
@@ -237,9 +239,7 @@ PushTask::PushTask(PushTaskGoal goal, RobotModel robot, PushTaskServices service
   }
 }
 
-PushTask::~PushTask() {
-  if (data_->stage == Data::Stage::kPlan || data_->is_repairing) data_->services.plans->cancel();
-}
+PushTask::~PushTask() { data_->cancelPlanning(); }
 
 Tick PushTask::tick(const Observation& observation) {
   Tick tick;

@@ -85,6 +85,7 @@ struct PushTask::Data {
                    const Observation& observation);
   void endRepair();
   void dropRepair();
+  void cancelPlanning();
   void notePlan(const PlanResult& made);
   void replan(ReplanCause cause, const std::string& why, const Observation& observation);
   void measure(const Observation& observation);

@@ -28,10 +28,9 @@ void checkGoals(const std::vector<PushTaskGoal>& tasks) {
   }
 }
 
-/// Whatever else happens.
-bool canNeverBeMet(const PlanResult& result) {
-  return result.status == PlanStatus::kNoCases || result.status == PlanStatus::kGoalOutsideMap ||
-         result.status == PlanStatus::kGoalInCollision;
+/// Whatever else happens. A request that was not understood tells nothing of the goal.
+bool canNeverBeMet(PlanStatus status) {
+  return isInvalidGoal(status) && status != PlanStatus::kInvalidRequest;
 }
 
 bool contains(const std::vector<std::string>& ids, const std::string& id) {
@@ -104,10 +103,7 @@ void Rearrange::Data::endTask(PushTaskStatus how, const std::string& why) {
 
 void Rearrange::Data::end(PushTaskStatus how, const std::string& why) {
   if (stage == Stage::kOrder && asked) services.plans->cancel();
-  if (task) {
-    task->cancel();  // Whatever it waits for.
-    endTask(how, why);
-  }
+  if (task) endTask(how, why);
   stage = Stage::kDone;
   status = how;
   text = why;
@@ -195,7 +191,7 @@ void Rearrange::Data::plan(const Observation& observation) {
   }
   if (const std::optional<PlanResult> result = services.plans->poll()) {
     asked = false;
-    if (round == 1 && canNeverBeMet(*result)) {
+    if (round == 1 && canNeverBeMet(result->status)) {
       Item& item = items[left[next]];
       item.status = PushTaskStatus::kInvalidGoal;
       item.explanation = result->explanation;

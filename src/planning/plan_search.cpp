@@ -71,9 +71,12 @@ ExpRrt makeRrt(const SearchProblem& problem, const ob::SpaceInformationPtr& spac
 
 }  // namespace
 
+bool isMetricExpRrt(const PushPlannerOptions& options) {
+  return options.planner == PlannerKind::kExpRrt && options.similarity == Similarity::kMetric;
+}
+
 bool keepsOutOfDeadEnds(const PushPlannerOptions& options) {
-  return options.planner == PlannerKind::kExpRrt && options.similarity == Similarity::kMetric &&
-         options.improvement_extensions > 0;
+  return isMetricExpRrt(options) && options.improvement_extensions > 0;
 }
 
 std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const PushChecker& checker,

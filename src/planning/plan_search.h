@@ -62,6 +62,9 @@ struct SearchProblem {
   const ObjectRoom& room;
 };
 
+/// Exp-RRT as it is by default, with a metric: of nodes near to one another only one grows.
+bool isMetricExpRrt(const PushPlannerOptions& options);
+
 /// Whether plans made with these options keep out of dead ends where they can (DeadEndCheck).
 bool keepsOutOfDeadEnds(const PushPlannerOptions& options);
 

@@ -117,17 +117,13 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
   return outcome;
 }
 
-/// Does it leave poses out that are too near to others?
-bool isSpaced(const PushPlannerOptions& options) {
-  return options.planner == PlannerKind::kExpRrt && options.similarity == Similarity::kMetric;
-}
-
 /// Until the deadline. Other seeds lead elsewhere; other planners would only find the same again.
 bool searchesAgain(const PushPlannerOptions& options) {
   PushPlannerOptions patient = options;
   patient.improveUntilDeadline();
   return options.solutions == patient.solutions &&
-         options.improvement_extensions == patient.improvement_extensions && isSpaced(options);
+         options.improvement_extensions == patient.improvement_extensions &&
+         isMetricExpRrt(options);
 }
 
 /// Is it as safe, and quicker?
@@ -288,7 +284,7 @@ PlanResult PushPlanner::Data::searchFinestLast(const PlanRequest& request,
   if (!is_worth_another(result)) return result;
   Data finer = *this;
   PlanResult other = result;
-  if (isSpaced(options) && result.nodes < options.max_nodes) {
+  if (isMetricExpRrt(options) && result.nodes < options.max_nodes) {
     finer.options.spacing_m *= kFiner;
     other = finer.search(request, whole, clock);
   }
