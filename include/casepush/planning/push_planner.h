@@ -65,11 +65,11 @@ struct PlanProgress {
 /// in a tight spot, the largest smaller whole value down to 0 (the mean only) is taken for which
 /// there is one; the plan holds it, and the explanation says so. Where few poses are reached and no
 /// plan is found, nodes are tried that are nearer to one another, and then cases with negative ids.
-/// Exp-RRT keeps out of dead ends: poses that a push may end in, and that no cases lead on from. With chance constraints the
-/// mean motions must be safe and the whole plan must keep the collision probability; larger ones
-/// are tried where there is no such plan, and expected recoveries count as time. Deterministic for
-/// a given request and seed unless the deadline cuts it off: all budgets count nodes and
-/// extensions. Thread safety: const methods are reentrant.
+/// Exp-RRT keeps out of dead ends: poses that a push may end in, and that no cases lead on from.
+/// With chance constraints the mean motions must be safe and the whole plan must keep the collision
+/// probability; larger ones are tried where there is no such plan, and expected recoveries count as
+/// time. Deterministic for a given request and seed unless the deadline cuts it off: all budgets
+/// count nodes and extensions. Thread safety: const methods are reentrant.
 class PushPlanner {
  public:
   /// @throws InputError if the map is empty or an option is out of bounds.
