@@ -123,6 +123,7 @@ ApproachMotion::Step ApproachMotion::follow(const Observation& observation,
                                    is_near ? kNearShiftRad : kFarShiftRad)) {
     return plan(observation, object);
   }
+  if (is_near) rest_.isAtRest(object);  // Then one look is enough once the robot stands.
   const Reference reference = follower_->advance(dt_s, observation.map_T_robot);
   if (follower_->remaining() < last_remaining_ - 0.01) {
     last_remaining_ = follower_->remaining();
@@ -133,7 +134,6 @@ ApproachMotion::Step ApproachMotion::follow(const Observation& observation,
   if (follower_->atEnd()) {
     stage_ = Stage::kSettle;
     stage_began_s_ = observation.stamp_s;
-    rest_.reset();
   }
   Step step;
   step.wanted =

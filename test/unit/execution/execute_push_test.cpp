@@ -144,6 +144,20 @@ TEST(ExecutePush, goesThroughItsPhasesAndStandsStillWhileTheObjectCoasts) {
   }
 }
 
+TEST(ExecutePush, doesNotWaitAtTheStartForWhatItSawAtRestOnTheWay) {
+  FakeWorld world(3);
+  ExecutePushOptions options;
+  options.rest_time_s = 1.5;
+  ExecutePush push("chair_1", test::straightPush(), fakeRobot(), test::detour, options);
+  int settling = 0;
+  test::run(push, world, 120.0, [&](const Observation&, const Tick&) {
+    settling += push.describe() == "settling beside chair_1" ? 1 : 0;
+  });
+  EXPECT_EQ(push.report()->outcome, PushOutcome::kDone);
+  EXPECT_GT(settling, 0);
+  EXPECT_LT(settling * FakeWorld::kTickS, 0.75);
+}
+
 TEST(ExecutePush, tellsWhyThereIsNoApproach) {
   FakeWorld world(8);
   ExecutePush push = firstTrial(test::straightPush(), [](const Observation&, const Pose2&, double) {
