@@ -102,6 +102,44 @@ TEST_F(PushTaskTest, plansAnewWhenTheRestIsNotValidAnyMore) {
   EXPECT_EQ(test::run(push_task, world, 900.0), BehaviourStatus::kSucceeded);
 }
 
+TEST_F(PushTaskTest, plansAnewBeforeAPushThatMayEndInADeadEnd) {
+  services.continue_plan = [this](const PushPlan& rest, const Pose2& pose, const std::vector<Case>&,
+                                  const std::vector<PlacedObject>&) {
+    PushPlanner::Continuation continuation = test::reanchored(rest, pose);
+    continuation.may_get_stuck = plans.requests.size() == 1;
+    return continuation;
+  };
+  PushTask push_task = task();
+  EXPECT_EQ(test::run(push_task, world, 900.0), BehaviourStatus::kSucceeded);
+  EXPECT_EQ(push_task.progress().pushes_per_plan.front(), 1);
+  EXPECT_EQ(push_task.progress().replan_history.front(), ReplanCause::kDeadEndAhead);
+}
+
+TEST_F(PushTaskTest, makesAPushIntoADeadEndOfWhichThePlannerKnewNoWayAround) {
+  goal.map_T_goal = Pose2(4.0, 1.0, 0.5);
+  world.scatter = 0.0;
+  plans.answer = [](const PlanRequest& request) {
+    PlanResult result = test::searchPlan(request);
+    result.dead_end = 3;
+    return result;
+  };
+  std::vector<int> asked;  // Before which pushes.
+  services.continue_plan = [&](const PushPlan& rest, const Pose2& pose, const std::vector<Case>&,
+                               const std::vector<PlacedObject>&) {
+    PushPlanner::Continuation continuation = test::reanchored(rest, pose);
+    asked.push_back(static_cast<int>(reports.size()) + 1);
+    continuation.may_get_stuck = asked.back() == 3 || asked.back() == 4;
+    return continuation;
+  };
+  PushTask push_task = task();
+  for (int i = 0; i < 40000 && push_task.progress().replans == 0; ++i) {
+    world.advance(push_task.tick(world.observe()).command.twist);
+  }
+  EXPECT_EQ(asked, (std::vector<int>{2, 3, 4}));
+  EXPECT_EQ(push_task.progress().pushes_per_plan, std::vector<int>{3});
+  EXPECT_EQ(push_task.progress().replan_causes, (ReplanCounts{{ReplanCause::kDeadEndAhead, 1}}));
+}
+
 TEST_F(PushTaskTest, failsAtOnceWithThePlannersWordsIfTheGoalIsInvalid) {
   for (const PlanStatus status : {PlanStatus::kInvalidRequest, PlanStatus::kNoCases,
                                   PlanStatus::kGoalInCollision, PlanStatus::kGoalOutsideMap}) {
