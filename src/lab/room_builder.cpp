@@ -29,20 +29,24 @@ StaticBox wall(const std::string& name, double length_x_m, double length_y_m, do
   return box;
 }
 
-RoomBuilder::RoomBuilder(const std::string& name, double size_m, Random* random)
+RoomBuilder::RoomBuilder(const std::string& name, const Eigen::Vector2d& size_m, Random* random)
     : size_m_(size_m), random_(*random) {
   world_.name = name;
   world_.min_m.setZero();
-  world_.max_m.setConstant(size_m);
+  world_.max_m = size_m;
   const double half_m = 0.5 * kWall_m;
-  const double inside_m = size_m - 2.0 * kWall_m;
+  const double inside_m = size_m.y() - 2.0 * kWall_m;
+  const Eigen::Vector2d middle_m = 0.5 * size_m;
   world_.boxes = {
-      wall("wall_south", size_m, kWall_m, 0.5 * size_m, half_m),
-      wall("wall_north", size_m, kWall_m, 0.5 * size_m, size_m - half_m),
-      wall("wall_west", kWall_m, inside_m, half_m, 0.5 * size_m),
-      wall("wall_east", kWall_m, inside_m, size_m - half_m, 0.5 * size_m),
+      wall("wall_south", size_m.x(), kWall_m, middle_m.x(), half_m),
+      wall("wall_north", size_m.x(), kWall_m, middle_m.x(), size_m.y() - half_m),
+      wall("wall_west", kWall_m, inside_m, half_m, middle_m.y()),
+      wall("wall_east", kWall_m, inside_m, size_m.x() - half_m, middle_m.y()),
   };
 }
+
+RoomBuilder::RoomBuilder(const std::string& name, double size_m, Random* random)
+    : RoomBuilder(name, Eigen::Vector2d::Constant(size_m), random) {}
 
 void RoomBuilder::keepFree(const Eigen::Vector2d& centre_m, double radius_m) {
   free_.push_back({centre_m, radius_m});
@@ -62,7 +66,7 @@ void RoomBuilder::addWall(const StaticBox& box) {
 }
 
 double RoomBuilder::furnish(double density) {
-  const double floor_m2 = size_m_ * size_m_;
+  const double floor_m2 = size_m_.prod();
   double covered_m2 = 0.0;
   for (int draw = 0; covered_m2 < density * floor_m2 && draw < kPlaceDraws; ++draw) {
     const FurniturePiece piece = randomFurniture(random_);
@@ -96,15 +100,15 @@ bool RoomBuilder::tryPlace(const FurniturePiece& piece) {
 
 /// One attempt at a random place.
 std::optional<Pose2> RoomBuilder::tryStand(const Shadow& outline, double heading_step_deg) {
-  const double inside_m = size_m_ - kWall_m;
-  const double x = toCentimetre(random_.uniform(kWall_m, inside_m));
-  const double y = toCentimetre(random_.uniform(kWall_m, inside_m));
+  const Eigen::Vector2d inside_m = size_m_.array() - kWall_m;
+  const double x = toCentimetre(random_.uniform(kWall_m, inside_m.x()));
+  const double y = toCentimetre(random_.uniform(kWall_m, inside_m.y()));
   // Most furniture stands square to the walls.
   const Pose2 pose(x, y, drawHeading(random_, random_.chance(0.7) ? 90.0 : heading_step_deg));
   const Shadow shadow = transformed(pose, outline);
   for (int i = 0; i < shadow.count; ++i) {
     if (shadow.points[i].minCoeff() < kWall_m + shadow.radius_m ||
-        shadow.points[i].maxCoeff() > inside_m - shadow.radius_m) {
+        (inside_m - shadow.points[i]).minCoeff() < shadow.radius_m) {
       return std::nullopt;
     }
   }

@@ -28,10 +28,12 @@ constexpr int kTagsPerObject = 100;
 StaticBox wall(const std::string& name, double length_x_m, double length_y_m, double x_m,
                double y_m);
 
-/// Builds a square room: walls, then what must stay free, then furniture beside that.
+/// Builds a rectangular room: walls, then what must stay free, then furniture beside that.
 class RoomBuilder {
  public:
   /// @param random  Must outlive the builder.
+  RoomBuilder(const std::string& name, const Eigen::Vector2d& size_m, Random* random);
+  /// Square.
   RoomBuilder(const std::string& name, double size_m, Random* random);
 
   WorldModel& world() { return world_; }
@@ -57,7 +59,7 @@ class RoomBuilder {
     Eigen::Vector2d centre_m;
     double radius_m;
   };
-  double size_m_;
+  Eigen::Vector2d size_m_;
   Random& random_;
   WorldModel world_;
   std::vector<FreeDisc> free_;

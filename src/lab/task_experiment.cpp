@@ -46,15 +46,20 @@ std::vector<Case> learnCases(const Catalog& catalog, const TaskExperimentOptions
   return learnAllInScratch(catalog, objectsToLearn(catalog, options), options.robot, learning);
 }
 
-PushRunResult runTask(const Catalog& catalog, const TaskExperimentOptions& options,
-                      const std::vector<Case>& cases, std::uint64_t seed) {
-  const PushProblem problem = taskProblem(catalog, options, seed);
+void runTask(const Catalog& catalog, const TaskExperimentOptions& options,
+             const std::vector<Case>& cases, TaskRun* task) {
+  const PushProblem problem = taskProblem(catalog, options, task->seed);
+  const std::shared_ptr<const Map> map = surveyMap(problem.world);
+  if (options.plans > 0) {
+    task->plans = planTrials(catalog, problem, cases, map, options.run, options.plans, task->seed);
+  }
+  if (!options.execute) return;
   PushRunOptions run = options.run;
-  run.lab.simulator.seed = seed;
+  run.lab.simulator.seed = task->seed;
   if (options.load) {
     run.lab.simulator.loads[problem.object_id] = *options.load;
   }
-  return runPushTask(catalog, problem, cases, surveyMap(problem.world), run);
+  task->result = runPushTask(catalog, problem, cases, map, run);
 }
 
 }  // namespace
@@ -64,6 +69,7 @@ void TaskExperimentOptions::validate() const {
   violations.require("goal_distance_m", goal_distance_m, 0.5, 50.0);
   violations.require("tasks", tasks, 1, 100000);
   violations.require("case_bases", case_bases, 1, 1000);
+  violations.require("plans", plans, execute ? 0 : 1, 10000);
   violations.require("jobs", jobs, 1, 256);
   violations.throwIfAny("task experiment");
 }
@@ -90,7 +96,7 @@ std::vector<TaskRun> runTasks(const Catalog& catalog, const TaskExperimentOption
   forEachIndex(options.tasks, options.jobs, [&](int i) {
     runs[i].seed = seedOf(options.seed, i);
     runs[i].case_base = i % options.case_bases;
-    runs[i].result = runTask(catalog, options, bases[runs[i].case_base], runs[i].seed);
+    runTask(catalog, options, bases[runs[i].case_base], &runs[i]);
     tell("tasks", options.tasks);
   });
   return runs;

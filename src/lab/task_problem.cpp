@@ -66,6 +66,9 @@ PushProblem taskProblem(const Catalog& catalog, const TaskExperimentOptions& opt
     case TaskSetting::kDividedRooms:
       return problemIn(
           generateDividedRoom(catalog, roomOptions<DividedRoomOptions>(options, seed)));
+    case TaskSetting::kVariedRooms:
+      return problemIn(generateDividedRoom(
+          catalog, drawDividedRoom(catalog, roomOptions<DividedRoomOptions>(options, seed))));
     case TaskSetting::kWorld:
       return randomProblem(catalog, loadWorld(catalog, options.world), options.object, seed);
     case TaskSetting::kDiagonal:

@@ -170,6 +170,7 @@ nlohmann::ordered_json pushReportJson(const PushReport& report) {
           {"t_squared", report.test.t_squared},
           {"p_value", report.test.p_value},
           {"rejected", report.test.rejected},
+          {"start_s", report.start_stamp_s},
           {"duration_s", report.end_stamp_s - report.start_stamp_s}};
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "casepush/lab/mean_interval.h"
+#include "obstacle_json.h"
 #include "task_experiment_rows.h"
 
 namespace casepush {
@@ -29,9 +29,12 @@ TaskExperimentOptions commonOptions(const TaskExperimentArguments& arguments) {
   options.run.task.plan_deadline_s = kPlanDeadlineS;
   options.run.task.clear.deadline_s = kPlanDeadlineS;
   options.run.planner = plannerOptions(arguments.planner);
-  if (arguments.rooms == "random" || arguments.rooms == "divided") {
-    options.setting =
-        arguments.rooms == "random" ? TaskSetting::kRandomRooms : TaskSetting::kDividedRooms;
+  if (arguments.rooms == "random") {
+    options.setting = TaskSetting::kRandomRooms;
+  } else if (arguments.rooms == "divided") {
+    options.setting = TaskSetting::kDividedRooms;
+  } else if (arguments.rooms == "varied") {
+    options.setting = TaskSetting::kVariedRooms;
   } else {
     options.setting = TaskSetting::kWorld;
     options.world = arguments.rooms;
@@ -102,59 +105,47 @@ int adaptation(const TaskExperimentArguments& arguments) {
   return runRows(arguments, rows);
 }
 
-/// How much longer the tasks of one row take than those of another, where both succeeded.
-nlohmann::ordered_json ratioJson(const std::string& caster_model, const std::vector<TaskRun>& above,
-                                 const std::vector<TaskRun>& below, std::uint64_t seed) {
-  std::vector<double> above_s, below_s;
-  for (std::size_t i = 0; i < above.size(); ++i) {
-    if (above[i].result.success && below[i].result.success) {
-      above_s.push_back(above[i].result.sim_time_s);
-      below_s.push_back(below[i].result.sim_time_s);
-    }
-  }
-  nlohmann::ordered_json json = {{"caster_model", caster_model}, {"pairs", above_s.size()}};
-  if (!above_s.empty()) {
-    const MeanInterval ratio = bootstrapRatio(above_s, below_s, seed);
-    json["ratio"] = ratio.mean;
-    json["ci95"] = {ratio.low, ratio.high};
-  }
-  return json;
-}
-
-void printRatios(const nlohmann::ordered_json& ratios) {
-  for (const nlohmann::ordered_json& each : ratios) {
-    if (!each.contains("ratio")) continue;
-    std::printf("%s: stationary obstacles take %.2f (%.2f to %.2f) times as long as movable ones\n",
-                each["caster_model"].get<std::string>().c_str(), each["ratio"].get<double>(),
-                each["ci95"][0].get<double>(), each["ci95"][1].get<double>());
-  }
-}
-
-int obstacles(const TaskExperimentArguments& arguments) {
-  const Stopwatch watch;
+/// Rows of both kinds for each caster model, in turn.
+std::vector<Row> obstacleRows(const TaskExperimentArguments& arguments) {
   std::vector<Row> rows;
   for (const std::string& caster_model : arguments.caster_models) {
     for (const char* kind : {"stationary", "movable"}) {
       Row row{{{"caster_model", caster_model}, {"obstacles", kind}}, commonOptions(arguments)};
-      row.options.setting = TaskSetting::kDividedRooms;
+      row.options.setting = TaskSetting::kVariedRooms;
       row.options.run.clear_obstacles = std::string(kind) == "movable";
+      row.options.execute = !arguments.plans_only;
       setCasterModel(caster_model, &row.options);
       rows.push_back(row);
     }
   }
-  const Results results = runAll(rows);
-  nlohmann::ordered_json ratios = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < arguments.caster_models.size(); ++i) {
-    ratios.push_back(ratioJson(arguments.caster_models[i], results.runs[2 * i],
-                               results.runs[2 * i + 1],
+  return rows;
+}
+
+int obstacles(const TaskExperimentArguments& arguments) {
+  const Stopwatch watch;
+  Results results = runAll(obstacleRows(arguments));
+  for (std::size_t i = 0; i < results.runs.size(); ++i) {
+    results.rows[i]["plans"] = planTrialsJson(results.runs[i]);
+  }
+  nlohmann::ordered_json detours = nlohmann::ordered_json::array();
+  std::vector<std::vector<DetourBin>> bins;
+  for (std::size_t i = 0; !arguments.plans_only && i < arguments.caster_models.size(); ++i) {
+    bins.push_back(binByDetour(results.runs[2 * i], results.runs[2 * i + 1],
                                static_cast<std::uint64_t>(arguments.common.seed)));
+    detours.push_back(
+        {{"caster_model", arguments.caster_models[i]}, {"bins", detourJson(bins.back())}});
   }
   if (arguments.common.json) {
-    printJson(arguments, results, watch, {{"stationary_over_movable", ratios}});
-  } else {
-    printTable(results.rows);
-    printRatios(ratios);
+    printJson(arguments, results, watch, {{"stationary_over_movable", detours}});
+    return kExitSuccess;
   }
+  if (!arguments.plans_only) printTable(results.rows);
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    std::printf("\n%s: how many times as long tasks take if the obstacles are fixed\n",
+                arguments.caster_models[i].c_str());
+    printDetours(bins[i]);
+  }
+  printPlanTrials(results.rows);
   return kExitSuccess;
 }
 
@@ -234,13 +225,14 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
     command
         ->add_option("--rooms", arguments->rooms,
                      "random (each task in a cluttered room of its own), divided (in one with two "
-                     "doors, the short way through the one), or a world by name or YAML file with "
-                     "random starts and goals")
+                     "doors, the short way through the one), varied (the same with measures and "
+                     "obstacles drawn at random), or a world by name or YAML file with random "
+                     "starts and goals")
         ->capture_default_str();
     command
         ->add_option("--movable", arguments->experiment.movable,
                      "Other objects by name or URDF file: among the furniture of random rooms, in "
-                     "the near door of divided ones")
+                     "the near door of divided ones, one or two of them in that of varied ones")
         ->expected(0, 5);
     command->add_flag("--clear-obstacles", arguments->experiment.run.clear_obstacles,
                       "Learn other objects, too, and push them out of the way where that is "
@@ -289,20 +281,29 @@ void addTaskExperiments(CLI::App& experiment, Run& run) {
     arguments->experiment.object = "overbed_table";
     arguments->experiment.movable = {"office_chair", "utility_cart"};
     arguments->experiment.room_density = 0.03;
+    arguments->experiment.plans = 5;
     CLI::App* command = addExperiment(
         experiment, "obstacles",
-        "Tasks in rooms with a short way through a door in which other objects stand, and a long "
-        "free one (Table 1 of the paper): the same tasks with these objects fixed and pushed out "
-        "of the way",
+        "Tasks in rooms with a short way through a door in which other objects stand, and a free "
+        "one through another door (Table 1 and Fig. 11 of the paper): the same tasks with these "
+        "objects fixed and pushed out of the way, over the length of the detour. Measures of the "
+        "rooms and obstacles are drawn at random",
         run, arguments, obstacles);
     addObjectOption(*command, arguments->experiment.object);
     command
         ->add_option("--movable", arguments->experiment.movable,
-                     "What stands in the door, by name or URDF file")
+                     "What may stand in the door, by name or URDF file: one or two of these, drawn "
+                     "for each room")
         ->expected(1, 5)
         ->capture_default_str();
-    command->add_option("--size", arguments->experiment.room_size_m, "Edge of the rooms [m]")
+    command
+        ->add_option("--plans", arguments->experiment.plans,
+                     "Plans for each room and kind of obstacles; the shortest ones tell how long "
+                     "the detour is")
+        ->check(CLI::Range(1, 10000))
         ->capture_default_str();
+    command->add_flag("--plans-only", arguments->plans_only,
+                      "Execute nothing: number of nodes, length and CPU time of plans only");
     addPracticesOption(*command, arguments->experiment.learning.exploration);
   }
 }

@@ -78,7 +78,7 @@ Results runAll(const std::vector<Row>& rows) {
           progress.update(i, labelText(rows[i].label), what, done, count);
         }));
     nlohmann::ordered_json row = {{"label", rows[i].label}};
-    row.update(taskRunsJson(results.runs.back()));
+    if (rows[i].options.execute) row.update(taskRunsJson(results.runs.back()));
     results.rows.push_back(row);
     double seconds = 0.0;
     for (const TaskRun& run : results.runs.back()) {

@@ -25,6 +25,7 @@ struct TaskExperimentArguments {
   bool no_notice = false;
   bool replan_when_rejected = false;
   bool no_repair = false;
+  bool plans_only = false;
 };
 
 /// One row of an experiment's table.

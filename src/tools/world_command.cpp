@@ -12,6 +12,7 @@ struct GenerateArguments {
   CommonOptions common;
   RoomOptions room;
   bool divided = false;
+  bool varied = false;
   std::string output;
 };
 
@@ -23,8 +24,11 @@ int generate(GenerateArguments arguments) {
   divided.size_m = arguments.room.size_m;
   divided.object = arguments.room.object;
   divided.robot = arguments.room.robot;
-  const WorldModel room = arguments.divided ? generateDividedRoom(Catalog::standard(), divided)
-                                            : generateRoom(Catalog::standard(), arguments.room);
+  const Catalog catalog = Catalog::standard();
+  if (arguments.varied) divided = drawDividedRoom(catalog, divided);
+  const WorldModel room = arguments.divided || arguments.varied
+                              ? generateDividedRoom(catalog, divided)
+                              : generateRoom(catalog, arguments.room);
   saveWorldModel(room, arguments.output);
   printResult({{"success", true},
                {"file", arguments.output},
@@ -49,13 +53,18 @@ void addWorldCommand(CLI::App& app, Run& run) {
   addCommonOptions(*command, arguments->common);
   addObjectOption(*command, arguments->room.object);
   addRobotOption(*command, arguments->room.robot);
-  command->add_option("--size", arguments->room.size_m, "Edge length of the room [m]")
-      ->capture_default_str();
+  CLI::Option* size =
+      command->add_option("--size", arguments->room.size_m, "Edge length of the room [m]")
+          ->capture_default_str();
   command->add_option("--density", arguments->room.density, "Share of the floor under furniture")
       ->capture_default_str();
   command->add_flag("--divided", arguments->divided,
                     "A wall with two doors between start and goal: a chair and a cart stand in the "
                     "near one, the far one is open");
+  command
+      ->add_flag("--varied", arguments->varied,
+                 "The same with size, doors, start, goal and obstacles drawn at random")
+      ->excludes(size);
   command->add_option("--output", arguments->output, "World file to write (.yaml)")->required();
   setWork(*command, run, arguments, generate);
 }

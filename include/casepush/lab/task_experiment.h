@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "casepush/lab/learning.h"
+#include "casepush/lab/plan_trials.h"
 #include "casepush/lab/push_run.h"
 
 namespace casepush {
@@ -15,6 +16,7 @@ namespace casepush {
 enum class TaskSetting {
   kRandomRooms,   ///< Each task in a cluttered room of its own, see generateRoom().
   kDividedRooms,  ///< Each in a room of its own with two doors, see generateDividedRoom().
+  kVariedRooms,   ///< The same, with measures and obstacles drawn, see drawDividedRoom().
   kWorld,         ///< From and to random places in a world, see randomProblem().
   kDiagonal,  ///< On an open floor, the goal at a fixed distance diagonally; headings at random.
 };
@@ -28,14 +30,16 @@ struct TaskExperimentOptions {
   double goal_distance_m = 4.0;  ///< Of kDiagonal.
   std::string world;             ///< Of kWorld: name or YAML file.
   /// Other objects, by name or URDF file: of kRandomRooms among the furniture, of kDividedRooms in
-  /// the near door. Where obstacles are cleared (PushRunOptions), they are learnt, too, and so are
-  /// those of a world.
+  /// the near door, of kVariedRooms those to draw from. Where obstacles are cleared
+  /// (PushRunOptions), they are learnt, too, and so are those of a world.
   std::vector<std::string> movable;
   int tasks = 20;
   int case_bases = 4;  ///< Learnt anew, each with a seed of its own; tasks take turns.
   std::uint64_t seed = 1;
   LearningOptions learning;
   PushRunOptions run;
+  int plans = 0;             ///< Made for each task beforehand, to be compared; see planTrials().
+  bool execute = true;       ///< False: nothing but those plans.
   std::optional<Load> load;  ///< On the object during the tasks, whatever it was learnt with.
   int jobs = 1;              ///< Threads; the result does not depend on their number.
 
@@ -46,7 +50,8 @@ struct TaskExperimentOptions {
 struct TaskRun {
   std::uint64_t seed = 0;
   int case_base = 0;  ///< From 0.
-  PushRunResult result;
+  std::vector<PlanTrial> plans;
+  PushRunResult result;  ///< As it is by default if nothing was executed.
 };
 
 using TaskExperimentProgress = std::function<void(const char* what, int done, int count)>;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "casepush/common/input_error.h"
@@ -76,6 +78,11 @@ TEST(TaskProblem, isSetWhereTheOptionsSay) {
   EXPECT_EQ(divided.world.name, "divided_room_3");
   ASSERT_EQ(divided.world.objects.size(), 2U);
   EXPECT_EQ(divided.world.objects[1].model, "utility_cart");
+  options.setting = TaskSetting::kVariedRooms;
+  const PushProblem varied = taskProblem(catalog, options, 3);
+  EXPECT_EQ(varied.world.name, "divided_room_3");
+  EXPECT_NE(varied.world.max_m, divided.world.max_m);
+  EXPECT_EQ(varied.world.objects[1].model, "utility_cart");
   options.setting = TaskSetting::kRandomRooms;
   const PushProblem random = taskProblem(catalog, options, 3);
   EXPECT_EQ(random.world.name, "room_3");
@@ -85,6 +92,49 @@ TEST(TaskProblem, isSetWhereTheOptionsSay) {
   const PushProblem world = taskProblem(catalog, options, 3);
   EXPECT_EQ(world.world.name, "corridor");
   EXPECT_GT(distance(world.map_T_goal, taskProblem(catalog, options, 4).map_T_goal), 0.0);
+}
+
+TEST(RunTasks, plansWithoutExecutingWhereAsked) {
+  TaskExperimentOptions options = small();
+  options.tasks = 2;
+  options.case_bases = 1;
+  options.plans = 3;
+  options.execute = false;
+  const std::vector<TaskRun> runs = runTasks(Catalog::standard(), options);
+  for (const TaskRun& run : runs) {
+    EXPECT_EQ(run.result.sim_time_s, 0.0);
+    ASSERT_EQ(run.plans.size(), 3U);
+    double least_m = 100.0;
+    for (const PlanTrial& plan : run.plans) {
+      ASSERT_TRUE(plan.is_solved);
+      EXPECT_GT(plan.length_m, 1.2);
+      EXPECT_GT(plan.pushes, 0);
+      EXPECT_GT(plan.nodes, 0);
+      EXPECT_GT(plan.planning_s, 0.0);
+      least_m = std::min(least_m, plan.length_m);
+    }
+    EXPECT_EQ(shortestM(run.plans), least_m);
+  }
+  EXPECT_TRUE(std::isinf(shortestM({PlanTrial{}})));
+}
+
+TEST(PlanTrials, ThoseWithoutMovableObstaclesTakeTheShortWay) {
+  TaskExperimentOptions options = small();
+  options.object = "overbed_table";
+  options.setting = TaskSetting::kDividedRooms;
+  options.tasks = 1;
+  options.case_bases = 1;
+  options.learning.exploration.cases = 12;
+  options.plans = 1;
+  options.execute = false;
+  options.room_density = 0.0;
+  options.movable = {"office_chair", "office_chair"};
+  const TaskRun fixed = runTasks(Catalog::standard(), options).front();
+  options.run.clear_obstacles = true;
+  const TaskRun movable = runTasks(Catalog::standard(), options).front();
+  ASSERT_TRUE(fixed.plans.front().is_solved);
+  ASSERT_TRUE(movable.plans.front().is_solved);
+  EXPECT_GT(fixed.plans.front().length_m, movable.plans.front().length_m + 5.0);
 }
 
 TEST(RunTasks, refusesBadOptions) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "casepush/lab/detour.h"
+
+namespace casepush {
+
+/// How plans for the same rooms spread (Fig. 11 of the paper): nodes, length, pushes, CPU time,
+/// each with its mean, standard deviation, and that within a room.
+nlohmann::ordered_json planTrialsJson(const std::vector<TaskRun>& runs);
+
+/// One object for each bin.
+nlohmann::ordered_json detourJson(const std::vector<DetourBin>& bins);
+
+/// @param rows  As printJson() would print them.
+void printPlanTrials(const nlohmann::ordered_json& rows);
+
+void printDetours(const std::vector<DetourBin>& bins);
+
+}  // namespace casepush
