@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "casepush/common/check.h"
+#include "se2_state.h"
 
 namespace casepush {
 namespace {
@@ -19,17 +20,6 @@ using Se2 = ob::SE2StateSpace;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Pose2 poseOf(const ob::State* state) {
-  const auto* se2 = state->as<Se2::StateType>();
-  return {se2->getX(), se2->getY(), se2->getYaw()};
-}
-
-void setState(const Pose2& pose, ob::State* state) {
-  auto* se2 = state->as<Se2::StateType>();
-  se2->setXY(pose.x(), pose.y());
-  se2->setYaw(pose.yaw());
-}
 
 Eigen::Vector2d bound(const ob::SpaceInformationPtr& space, bool low) {
   const ob::RealVectorBounds& bounds = space->getStateSpace()->as<Se2>()->getBounds();
@@ -51,7 +41,7 @@ double PushGoal::distanceGoal(const ob::State* state) const {
                   std::abs(yawDifference(pose, map_T_goal_)) / tolerance_.yaw_rad);
 }
 
-void PushGoal::sampleGoal(ob::State* state) const { setState(map_T_goal_, state); }
+void PushGoal::sampleGoal(ob::State* state) const { setPose(map_T_goal_, state); }
 
 ExpRrt::ExpRrt(const ob::SpaceInformationPtr& space, PushChecker* checker,
                std::shared_ptr<const CaseSet> cases, GoalGuide* guide, const Pose2& object_T_robot,
@@ -268,7 +258,7 @@ void ExpRrt::addSolutionPath(int node) {
   auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
   ob::State* state = si_->allocState();
   for (const int id : chain(node)) {
-    setState(tree_.node(id).map_T_object, state);
+    setPose(tree_.node(id).map_T_object, state);
     path->append(state);
   }
   si_->freeState(state);
@@ -288,7 +278,7 @@ void ExpRrt::getPlannerData(ob::PlannerData& data) const {
   for (int id = 0; id < tree_.size(); ++id) {
     data_states_.push_back(si_->allocState());
     const PushNode& node = tree_.node(id);
-    setState(node.map_T_object, data_states_.back());
+    setPose(node.map_T_object, data_states_.back());
     if (tree_.isRemoved(id)) {
       continue;
     }

@@ -18,6 +18,7 @@
 
 #include "chain_search.h"
 #include "exp_rrt.h"
+#include "se2_state.h"
 
 namespace casepush {
 namespace {
@@ -28,11 +29,6 @@ using Se2 = ob::SE2StateSpace;
 using Discrete = oc::DiscreteControlSpace;
 
 constexpr double kNowhere_m = 1e6;  // Where pushes end that are not safe: outside of the bounds.
-
-Pose2 poseOf(const ob::State* state) {
-  const auto* se2 = state->as<Se2::StateType>();
-  return {se2->getX(), se2->getY(), se2->getYaw()};
-}
 
 /// One step of propagation is one push.
 class PushPropagator : public oc::StatePropagator {
@@ -45,17 +41,13 @@ class PushPropagator : public oc::StatePropagator {
                  ob::State* result) const override {
     const int push = control->as<Discrete::ControlType>()->value;
     const Pose2 from = poseOf(state);
-    auto* se2 = result->as<Se2::StateType>();
     // Some planners ask for as many pushes as there are cases before they look whether to stop.
     if (stop_() || !problem_.checker.isSafe(problem_.cases[push], from)) {
-      se2->setXY(kNowhere_m, kNowhere_m);
-      se2->setYaw(0.0);
+      setPose(Pose2(kNowhere_m, kNowhere_m, 0.0), result);
       return;
     }
     ++safe_;
-    const Pose2 to = from * problem_.cases[push].start_outcome.mean;
-    se2->setXY(to.x(), to.y());
-    se2->setYaw(to.yaw());
+    setPose(from * problem_.cases[push].start_outcome.mean, result);
   }
   bool canPropagateBackward() const override { return false; }
   int safeCount() const { return safe_; }  ///< Pushes that could be added to a tree so far.
@@ -128,8 +120,7 @@ ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
   pushes = static_cast<const PushPropagator*>(space->getStatePropagator().get());
   const auto definition = std::make_shared<ob::ProblemDefinition>(space);
   ob::ScopedState<Se2> start(space);
-  start->setXY(problem.map_T_start.x(), problem.map_T_start.y());
-  start->setYaw(problem.map_T_start.yaw());
+  setPose(problem.map_T_start, start.get());
   definition->addStartState(start);
   definition->setGoal(std::make_shared<PushGoal>(space, problem.map_T_goal, problem.tolerance));
   // SST goes on improving until the objective is met: any solution meets this one.

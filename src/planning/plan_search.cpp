@@ -2,6 +2,7 @@
 
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/util/Console.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "dead_end_check.h"
 #include "origin_distance.h"
+#include "se2_state.h"
 
 namespace casepush {
 namespace {
@@ -22,6 +24,7 @@ constexpr double kSimpleShare = 0.97;
 
 ob::SpaceInformationPtr makeSpace(PushChecker* checker) {
   const CollisionChecker::Columns& columns = checker->collisions().columns();
+  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);  // It writes to where results go.
   ob::RealVectorBounds bounds(2);
   bounds.setLow(0, columns.origin_m.x());
   bounds.setLow(1, columns.origin_m.y());
@@ -30,10 +33,8 @@ ob::SpaceInformationPtr makeSpace(PushChecker* checker) {
   const auto se2 = std::make_shared<Se2>();
   se2->setBounds(bounds);
   const auto space = std::make_shared<ob::SpaceInformation>(se2);
-  space->setStateValidityChecker([checker](const ob::State* state) {
-    const auto* pose = state->as<Se2::StateType>();
-    return checker->isFree(Pose2(pose->getX(), pose->getY(), pose->getYaw()));
-  });
+  space->setStateValidityChecker(
+      [checker](const ob::State* state) { return checker->isFree(poseOf(state)); });
   space->setup();
   return space;
 }
@@ -42,8 +43,7 @@ ob::ProblemDefinitionPtr makeDefinition(const ob::SpaceInformationPtr& space,
                                         const PlanRequest& request) {
   const auto definition = std::make_shared<ob::ProblemDefinition>(space);
   ob::ScopedState<Se2> start(space);
-  start->setXY(request.object.map_T_object.x(), request.object.map_T_object.y());
-  start->setYaw(request.object.map_T_object.yaw());
+  setPose(request.object.map_T_object, start.get());
   definition->addStartState(start);
   definition->setGoal(std::make_shared<PushGoal>(space, request.map_T_goal, request.tolerance));
   return definition;

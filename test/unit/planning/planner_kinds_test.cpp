@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "planning/planner_fixture.h"
 
@@ -42,6 +43,20 @@ TEST_P(PlannerKindsTest, chainsOutcomesIntoTheGoal) {
   const auto rest = planner->continuePlan(result.plan, request.object.map_T_object, cases_, {});
   EXPECT_TRUE(rest.valid) << rest.explanation;
   EXPECT_GT(result.nodes, 0);
+}
+
+// Half a turn is pi, and no state of OMPL's.
+TEST_P(PlannerKindsTest, startsFromExactlyBackwards) {
+  const auto planner = plannerFor(emptyRoom(), options());
+  PlanRequest request = shortRequest();
+  const Pose2 start = request.object.map_T_object;
+  const Pose2 turn = Pose2(start.x(), start.y(), M_PI) * start.inverse();
+  for (Pose2* pose : {&request.object.map_T_object, &request.map_T_goal, &request.map_T_robot}) {
+    *pose = turn * *pose;
+  }
+  request.object.map_T_object = Pose2(start.x(), start.y(), M_PI);
+  const PlanResult result = planner->plan(request, cases_);
+  EXPECT_EQ(result.status, PlanStatus::kSolved) << result.explanation;
 }
 
 TEST_P(PlannerKindsTest, staysWhereItIsWhenAtTheGoal) {
