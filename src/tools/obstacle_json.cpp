@@ -15,8 +15,8 @@ constexpr Measure kMeasures[] = {
     {"nodes", [](const PlanTrial& plan) { return static_cast<double>(plan.nodes); }},
     {"length_m", [](const PlanTrial& plan) { return plan.length_m; }},
     {"pushes", [](const PlanTrial& plan) { return static_cast<double>(plan.pushes); }},
-    {"planning_s", [](const PlanTrial& plan) { return plan.planning_s; }},
 };
+constexpr Measure kTime = {"planning_s", [](const PlanTrial& plan) { return plan.planning_s; }};
 
 /// Of all solved plans.
 nlohmann::ordered_json spreadJson(const std::vector<TaskRun>& runs, const Measure& measure) {
@@ -52,6 +52,12 @@ nlohmann::ordered_json edgeJson(double edge) {
   return std::isinf(edge) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(edge);
 }
 
+void printSpread(const char* name, const nlohmann::ordered_json& spread) {
+  if (spread["mean"].is_null()) return;
+  std::printf(", %s %.3g +- %.2g (%.2g)", name, spread["mean"].get<double>(),
+              spread["sd"].get<double>(), spread["sd_within_rooms"].get<double>());
+}
+
 std::string edgeText(const DetourBin& bin) {
   char text[32];
   if (bin.from == 0.0 && std::isinf(bin.to)) return "all";
@@ -78,6 +84,10 @@ nlohmann::ordered_json planTrialsJson(const std::vector<TaskRun>& runs) {
   return json;
 }
 
+nlohmann::ordered_json planTimesJson(const std::vector<TaskRun>& runs) {
+  return spreadJson(runs, kTime);
+}
+
 nlohmann::ordered_json detourJson(const std::vector<DetourBin>& bins) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const DetourBin& bin : bins) {
@@ -99,19 +109,16 @@ nlohmann::ordered_json detourJson(const std::vector<DetourBin>& bins) {
   return json;
 }
 
-void printPlanTrials(const nlohmann::ordered_json& rows) {
+void printPlanTrials(const nlohmann::ordered_json& rows, const nlohmann::ordered_json& times) {
   std::printf("\nPlans: mean and standard deviation (within a room)\n");
-  for (const nlohmann::ordered_json& row : rows) {
-    const nlohmann::ordered_json& plans = row["plans"];
-    std::printf("%s, %s, %d of %d found:", row["label"]["caster_model"].get<std::string>().c_str(),
-                row["label"]["obstacles"].get<std::string>().c_str(), plans["solved"].get<int>(),
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const nlohmann::ordered_json& label = rows[i]["label"];
+    const nlohmann::ordered_json& plans = rows[i]["plans"];
+    std::printf("%s, %s, %d of %d found", label["caster_model"].get<std::string>().c_str(),
+                label["obstacles"].get<std::string>().c_str(), plans["solved"].get<int>(),
                 plans["trials"].get<int>());
-    for (const Measure& measure : kMeasures) {
-      const nlohmann::ordered_json& spread = plans[measure.name];
-      if (spread["mean"].is_null()) continue;
-      std::printf("  %s %.3g +- %.2g (%.2g)", measure.name, spread["mean"].get<double>(),
-                  spread["sd"].get<double>(), spread["sd_within_rooms"].get<double>());
-    }
+    for (const Measure& measure : kMeasures) printSpread(measure.name, plans[measure.name]);
+    printSpread(kTime.name, times[i]);
     std::printf("\n");
   }
 }

@@ -126,6 +126,7 @@ int obstacles(const TaskExperimentArguments& arguments) {
   Results results = runAll(obstacleRows(arguments));
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     results.rows[i]["plans"] = planTrialsJson(results.runs[i]);
+    results.timing["plans_s"].push_back(planTimesJson(results.runs[i]));
   }
   nlohmann::ordered_json detours = nlohmann::ordered_json::array();
   std::vector<std::vector<DetourBin>> bins;
@@ -145,7 +146,7 @@ int obstacles(const TaskExperimentArguments& arguments) {
                 arguments.caster_models[i].c_str());
     printDetours(bins[i]);
   }
-  printPlanTrials(results.rows);
+  printPlanTrials(results.rows, results.timing["plans_s"]);
   return kExitSuccess;
 }
 

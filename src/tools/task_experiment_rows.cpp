@@ -108,6 +108,7 @@ void printJson(const TaskExperimentArguments& arguments, const Results& results,
   json.update(more);
   json["seed"] = arguments.common.seed;
   json["timing"] = {{"wall_s", watch.seconds()}, {"planning_s", results.planning_s}};
+  json["timing"].update(results.timing);
   printResult(json, true);
 }
 

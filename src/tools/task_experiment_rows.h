@@ -39,6 +39,7 @@ struct Results {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   std::vector<std::vector<TaskRun>> runs;
   nlohmann::ordered_json planning_s = nlohmann::ordered_json::array();
+  nlohmann::ordered_json timing = nlohmann::ordered_json::object();  ///< What else was timed.
 };
 
 /// Runs all tasks of all rows, telling how far it is.

@@ -223,6 +223,14 @@ def test_measures_tasks(experiment, rows):
     assert len(table.stdout.splitlines()) == rows + 2
 
 
+def test_compares_plans_around_and_through_movable_obstacles():
+    process = casepush("experiment", "obstacles", "--plans-only", "--plans", 2, "--tasks", 2,
+                       "--case-bases", 1, "--cases", 10, "--caster-models", "planar", "--json")
+    stationary, movable = (row["plans"] for row in result_of(process)["rows"])
+    assert stationary["trials"] == movable["trials"] == 4
+    assert 2.0 < movable["length_m"]["mean"] < stationary["length_m"]["mean"]
+
+
 def test_export_and_import_keep_every_case(tmp_path, case_base):
     exported = tmp_path / "out.yaml"
     assert casepush("cases", "export", "--case-base", case_base, exported).returncode == 0
