@@ -109,6 +109,7 @@ ApproachMotion::Step ApproachMotion::plan(const Observation& observation,
   }
   follower_.emplace(path.waypoints, limits_,
                     PathFollower::Speeds{options_.approach_speed_mps, options_.dock_speed_mps});
+  bystanders_.note(observation, object_id_, path.waypoints);
   stage_ = Stage::kFollow;
   stage_began_s_ = observation.stamp_s;
   stalled_since_s_ = observation.stamp_s;
@@ -121,6 +122,9 @@ ApproachMotion::Step ApproachMotion::follow(const Observation& observation,
   const bool is_near = follower_->remaining() < kNearM;
   if (!object.moving && hasShifted(object, is_near ? kNearShiftM : kFarShiftM,
                                    is_near ? kNearShiftRad : kFarShiftRad)) {
+    return plan(observation, object);
+  }
+  if (bystanders_.haveChanged(observation)) {
     return plan(observation, object);
   }
   if (is_near) rest_.isAtRest(object);  // Then one look is enough once the robot stands.

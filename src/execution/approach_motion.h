@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "bystanders.h"
 #include "casepush/execution/execute_push.h"
 #include "path_follower.h"
 #include "watches.h"
@@ -54,6 +55,7 @@ class ApproachMotion {
   std::optional<double> stalled_since_s_;
   double last_remaining_ = 0.0;
   std::optional<PathFollower> follower_;
+  Bystanders bystanders_;
   Pose2 planned_map_T_start_;
   RestWatch rest_;
   int plans_ = 0;

@@ -19,6 +19,8 @@ namespace {
 // An object that stays within this has not been pushed: the scatter of its estimate.
 constexpr double kNotMovedM = 0.02;
 constexpr double kNotMovedRad = 0.05;
+// Without a command for so long the base has braked.
+constexpr double kPauseS = 0.2;
 
 std::string positionText(const Pose2& pose) {
   char text[48];
@@ -106,6 +108,7 @@ struct ExecutePush::Data {
   std::optional<double> began_s;
   double now_s = 0.0;
   double push_time_s = 0.0;  ///< Since the push began, without interruptions.
+  double moved_at_s = 0.0;   ///< When the last command was given that the base may follow.
   double push_end_s = 0.0;   ///< In push time: when the robot stopped.
   bool broken_off = false;
   std::optional<ObjectState> object;  ///< Last usable state.
@@ -113,6 +116,7 @@ struct ExecutePush::Data {
   std::optional<PushReport> report;
 
   Tick run(const Observation& observation);
+  void resume();
   Twist2 move(const Observation& observation, double dt_s);
   Twist2 approachTick(const Observation& observation, double dt_s);
   void beginPush(const Observation& observation);
@@ -123,6 +127,16 @@ struct ExecutePush::Data {
   void conclude();
   void finish(PushOutcome outcome, const std::string& explanation);
 };
+
+// Commands after a pause begin at a standstill. A push that paused is not the one of the case.
+void ExecutePush::Data::resume() {
+  const double paused_s = now_s - moved_at_s;
+  if (paused_s > kPauseS) limiter.stop();
+  if (phase == Phase::kPush && paused_s > options.blind_push_s) {
+    finish(PushOutcome::kTimeout, "the push of " + object_id + " was interrupted");
+  }
+  moved_at_s = now_s;
+}
 
 // Also rounds off the report of a push that failed: what was recorded so far stays in it.
 void ExecutePush::Data::finish(PushOutcome outcome, const std::string& explanation) {
@@ -283,6 +297,7 @@ Tick ExecutePush::Data::run(const Observation& observation) {
   } else if (robot_status == RobotWatch::Status::kLost) {
     finish(PushOutcome::kRobotLost, "the robot's own pose is not up to date");
   } else if (robot_status == RobotWatch::Status::kFresh && (seen == nullptr || isUsable(*seen))) {
+    resume();
     const Twist2 wanted = move(observation, *dt_s);
     const bool must_stand = phase == Phase::kRest || phase == Phase::kFinished;
     if (!must_stand) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "blocked_watch.h"
+#include "bystanders.h"
 #include "casepush/common/violations.h"
 #include "motion_control.h"
 #include "path_follower.h"
@@ -94,7 +95,9 @@ struct ObjectSearch::Data {
   std::vector<Eigen::Vector2d> far_places;
   int looks = 0;
   Pose2 turn_goal;
+  Eigen::Vector2d place_to_look_from = Eigen::Vector2d::Zero();
   std::optional<PathFollower> follower;
+  Bystanders bystanders;
   Twist2 commanded;
 
   bool isOver() const { return stage == Stage::kFound || stage == Stage::kGivenUp; }
@@ -106,6 +109,7 @@ struct ObjectSearch::Data {
   Twist2 drive(const Observation& observation, double dt_s);
   void listPlaces(const Pose2& map_T_robot);
   void goToNextPlace(const Observation& observation);
+  bool setOffTo(const Eigen::Vector2d& place, const Observation& observation);
   RobotPath pathTo(const Observation& observation, const Eigen::Vector2d& place) const;
 };
 
@@ -177,16 +181,24 @@ void ObjectSearch::Data::goToNextPlace(const Observation& observation) {
       });
   const Eigen::Vector2d place = *nearest;
   places.erase(nearest);
+  setOffTo(place, observation);
+}
+
+bool ObjectSearch::Data::setOffTo(const Eigen::Vector2d& place, const Observation& observation) {
   const RobotPath path = pathTo(observation, place);
-  if (path.found && !path.waypoints.empty()) {
-    const double speed = options.speed_mps;
-    follower.emplace(path.waypoints, robot.limits, PathFollower::Speeds{speed, speed});
-    enter(Stage::kDrive, observation.stamp_s);
-  }
+  if (!path.found || path.waypoints.empty()) return false;
+  const double speed = options.speed_mps;
+  follower.emplace(path.waypoints, robot.limits, PathFollower::Speeds{speed, speed});
+  bystanders.note(observation, last_seen.id, path.waypoints);
+  place_to_look_from = place;
+  enter(Stage::kDrive, observation.stamp_s);
+  return true;
 }
 
 Twist2 ObjectSearch::Data::drive(const Observation& observation, double dt_s) {
-  if (blocked.isBlocked(observation, commanded, BlockedWatch::Drive::kFree)) {
+  const bool is_cut_off = bystanders.haveChanged(observation) &&
+                          !setOffTo(Eigen::Vector2d(place_to_look_from), observation);
+  if (is_cut_off || blocked.isBlocked(observation, commanded, BlockedWatch::Drive::kFree)) {
     enter(Stage::kLook, observation.stamp_s);
     return Twist2{};
   }

@@ -1,10 +1,9 @@
 // How PushTask deals with other objects that can be pushed: it plans through them, compares with
 // the way around, and clears its way push by push (paper section 4).
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
+#include "bystanders.h"
 #include "push_task_data.h"
 
 namespace casepush {
@@ -34,17 +33,6 @@ std::vector<PlacedObject> movableOnes(const std::vector<PlacedObject>& all,
     if (!stands) movable.push_back(object);
   }
   return movable;
-}
-
-// More than this is no scatter of an estimate: it was moved.
-constexpr double kMovedM = 0.1;
-constexpr double kMovedRad = 0.2;
-
-bool isAmong(const std::vector<PlacedObject>& known, const PlacedObject& object) {
-  return std::any_of(known.begin(), known.end(), [&object](const PlacedObject& each) {
-    return each.id == object.id && distance(each.map_T_object, object.map_T_object) <= kMovedM &&
-           std::abs(yawDifference(each.map_T_object, object.map_T_object)) <= kMovedRad;
-  });
 }
 
 }  // namespace

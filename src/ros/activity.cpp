@@ -26,7 +26,9 @@ std::uint32_t count(int value) { return static_cast<std::uint32_t>(value); }
 
 /// "no_progress": as the constants of the result in lower case.
 std::string statusName(ActivityEnd how, PushTaskStatus status) {
-  std::string name = how == ActivityEnd::kStopped ? "stopped" : toString(status);
+  std::string name = how == ActivityEnd::kStopped     ? "stopped"
+                     : how == ActivityEnd::kCancelled ? toString(PushTaskStatus::kCancelled)
+                                                      : toString(status);
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }
@@ -120,9 +122,9 @@ PushObjectResult PushObjectActivity::result(ActivityEnd how, const std::string& 
                                             double now_s) const {
   const PushTaskProgress& progress = task_.progress();
   PushObjectResult result;
-  result.status = how == ActivityEnd::kStopped
-                      ? static_cast<std::uint8_t>(PushObjectResult::STOPPED)
-                      : static_cast<std::uint8_t>(task_.status());
+  result.status = static_cast<std::uint8_t>(task_.status());
+  if (how == ActivityEnd::kStopped) result.status = PushObjectResult::STOPPED;
+  if (how == ActivityEnd::kCancelled) result.status = PushObjectResult::CANCELLED;
   result.explanation = explanation.empty() ? task_.describe() : explanation;
   result.position_error = progress.distance_to_goal_m;
   result.yaw_error = std::abs(progress.yaw_to_goal_rad);

@@ -21,6 +21,7 @@ constexpr double kTickCheckS = 0.02;    // Wall time.
 constexpr double kTickMissingS = 0.06;  // Wall time without odometry after which a timer ticks.
 constexpr double kStatePeriodS = 0.2;
 constexpr double kJumpBackS = 0.5;
+constexpr double kBlindS = 2.0;  // Without any observation, after which a goal ends.
 
 }  // namespace
 
@@ -111,7 +112,9 @@ void ExecutorNode::onOdometry(const nav_msgs::Odometry& message) {
     }
   }
   odometry_ = message;
-  tick(jumped_back ? now_s : std::max(now_s, last_stamp_s_));
+  // By the clock, stamps show how late they come; a simulator's clock runs ahead of a busy machine.
+  const double clock_s = ros::Time::isSimTime() ? now_s : ros::Time::now().toSec();
+  tick(jumped_back ? now_s : std::max({now_s, clock_s, last_stamp_s_}));
 }
 
 void ExecutorNode::checkTicks() {
@@ -134,6 +137,9 @@ std::string ExecutorNode::whatIsMissing() const {
   if (map_.planner() == nullptr) {
     return "there is no map yet (topic map/octomap)";
   }
+  if (odometry_.header.stamp.isZero()) {
+    return "there is no odometry with a time stamp yet (topic odom)";
+  }
   try {
     robotPose(buffer_);
   } catch (const std::exception& error) {
@@ -152,6 +158,7 @@ void ExecutorNode::begin(std::unique_ptr<Activity> activity) {
   last_tick_ = SteadyClock::now();
   last_state_s_ = -1e9;
   objects_silence_.reset();
+  observation_silence_.reset();
   watchdog_.arm();
 }
 
@@ -171,7 +178,8 @@ std::optional<Observation> ExecutorNode::observe(double now_s) const {
   try {
     const StampedRobotPose robot = robotPose(buffer_);
     observation.map_T_robot = robot.map_T_robot;
-    observation.robot_stamp_s = robot.stamp_s;
+    // Where the robot is and how it moves: what is older counts.
+    observation.robot_stamp_s = std::min(robot.stamp_s, odometry_.header.stamp.toSec());
     observation.robot_twist = fromMessage(odometry_.twist.twist);
   } catch (const std::exception& error) {
     ROS_WARN_THROTTLE(1.0, "no observation: %s", error.what());
@@ -189,8 +197,12 @@ void ExecutorNode::tick(double now_s) {
   last_tick_ = SteadyClock::now();
   watchdog_.feed();
   const std::optional<Observation> observation = observe(now_s);
+  const double blind_s = observation_silence_.update(now_s, !observation);
   if (!observation) {
     command_.publish(geometry_msgs::Twist());
+    if (blind_s > kBlindS && end_ == ActivityEnd::kFinished) {
+      end(ActivityEnd::kStopped, "neither pose nor speed of the robot are known: see the warnings");
+    }
     return;
   }
   const bool is_stale = now_s - objects_stamp_s_ > parameters_.stale_objects_s;

@@ -31,7 +31,7 @@ void ExecutorNode::onTeleop(const geometry_msgs::Twist& message) {
                       activity_->describe().c_str());
     return;
   }
-  const Twist2 wanted = fromMessage(message);
+  const Twist2 wanted{message.linear.x, message.linear.y, message.angular.z};
   if (!wanted.isFinite()) {
     ROS_WARN_THROTTLE(1.0, "teleop_cmd_vel is not finite: the base is told to stand");
   }

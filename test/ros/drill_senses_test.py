@@ -34,6 +34,13 @@ class DrillSensesTest(drill.Drill):
         self.relay.tf_frozen = False
         self.finish_task()
 
+    def test_odometry_freezes(self):
+        self.start_task()
+        self.wait_phase("approach")
+        self.wait_moving()
+        self.relay.odometry_frozen = True
+        self.finish_task(PushObjectResult.ROBOT_LOST)
+
     def test_clock_jumps_forwards(self):
         self.start_task()
         self.wait_phase("push")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The executor stands still whenever something it needs is gone, and says why."""
 
+import copy
 import math
 import signal
 import sys
@@ -9,7 +10,7 @@ import time
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from geometry_msgs.msg import Pose2D
+from geometry_msgs.msg import Pose2D, Twist
 from nav_msgs.msg import Odometry
 
 import harness
@@ -36,6 +37,7 @@ class ExecutorNodeTest(PushingTest):
         super().setUpClass()
         cls.odometry = harness.Recorder("odom", Odometry)
         cls.fake_odometry = rospy.Publisher("odom", Odometry, queue_size=1)
+        cls.by_hand = rospy.Publisher("teleop_cmd_vel", Twist, queue_size=1)
         cls.fake_cases = rospy.Publisher("cases", PushCaseArray, queue_size=1, latch=True)
         cls.await_nodes()
         harness.wait_until(cls.executor_knows_map_and_robot, what="the executor to get ready")
@@ -160,6 +162,41 @@ class ExecutorNodeTest(PushingTest):
             self.expect_standstill(event, STALE_S + REACTION_S)
         finally:
             self.sim.send_signal(signal.SIGCONT)
+
+    def test_stops_when_nothing_is_known_of_the_robot(self):
+        self.start_moving(self.push_object, self.push_goal())
+        self.sim.send_signal(signal.SIGSTOP)
+        try:
+            message = copy.deepcopy(self.odometry.last())
+            message.twist.twist.linear.x = math.nan
+
+            def is_over():
+                message.header.stamp += rospy.Duration(0.02)
+                self.fake_odometry.publish(message)
+                return self.push_object.get_result() is not None
+
+            harness.wait_until(is_over, what="the task to end")
+            result = self.push_object.get_result()
+            self.assertEqual(result.status, PushObjectResult.STOPPED, result.explanation)
+            self.assertIn("neither pose nor speed", result.explanation)
+            self.assertTrue(harness.is_zero(self.commands.last()))
+        finally:
+            self.sim.send_signal(signal.SIGCONT)
+
+    def test_stands_still_if_somebody_drives_it_by_numbers_that_are_none(self):
+        command = Twist()
+        command.linear.x = math.nan
+
+        def is_told_to_stand():
+            self.by_hand.publish(command)
+            return self.commands.last() is not None and harness.is_zero(self.commands.last())
+
+        self.commands.clear()
+        harness.wait_until(is_told_to_stand, what="a command")
+        harness.wait_until(lambda: self.state.last().activity == ExecutorState.IDLE,
+                           what="the executor to be free again")
+        self.assertEqual(self.result(self.execute_push, ExecutePushGoal()).status,
+                         ExecutePushResult.INVALID_GOAL)
 
     def test_refuses_a_second_goal(self):
         self.start_moving(self.execute_push, self.replay())

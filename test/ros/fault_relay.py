@@ -44,6 +44,7 @@ class FaultRelay:
     def mend(self):
         """No faults from now on, but for what the clock says."""
         self.tf_frozen = False
+        self.odometry_frozen = False
         self.scans_frozen = False
         self.images_frozen = False   # No image comes at all.
         self.drop_share = 0.0        # Of single detections.
@@ -64,6 +65,8 @@ class FaultRelay:
             self._publishers["/tf"].publish(message)
 
     def _on_odometry(self, message):
+        if self.odometry_frozen:
+            return
         message = copy.deepcopy(message)  # Whoever else in this process listens gets the very same.
         message.header.stamp = self._shifted(message.header.stamp)
         self._publishers["/odom"].publish(message)

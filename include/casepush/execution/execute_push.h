@@ -82,7 +82,7 @@ struct ExecutePushOptions {
   double rest_timeout_s = 15.0;
   double approach_timeout_s = 120.0;
   double stale_robot_s = 0.15;  ///< Age of the robot's pose above which it stops.
-  double blind_push_s = 0.3;    ///< Age of the object's pose above which a push is broken off,
+  double blind_push_s = 0.3;    ///< Age of the object's pose, or pause, above which a push fails,
   double lost_object_s = 1.0;   ///< and above which nobody waits for it to come to rest.
   double alpha = 0.01;          ///< Of the prediction test.
   OutcomeTest test = OutcomeTest::kHotelling;
@@ -121,8 +121,9 @@ std::vector<PlacedObject> otherObjects(const Observation& observation, const std
 /// nudged the object, it docks anew, a limited number of times. It breaks the push off if the
 /// object leaves the case's tube (TubeWatchOptions), and fails if something holds the robot.
 ///
-/// It commands zero at once, and goes on if things are well again in time, while the robot's pose
-/// is stale or the observation is not finite.
+/// It commands zero at once while the robot's pose is stale or the observation is not finite, and
+/// goes on if things are well again in time; a push that was interrupted for longer than
+/// `blind_push_s` has failed, as it is not the one of the case any more.
 class ExecutePush : public Behaviour {
  public:
   /// Tries a configuration for the first time.

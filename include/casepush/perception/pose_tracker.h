@@ -18,7 +18,8 @@ struct PoseTrackerOptions {
                                    ///< the track restarts.
   double moving_speed_mps = 0.03;  ///< Above either, an object counts as moving.
   double moving_yaw_rate_rps = 0.06;
-  double forget_after_s = 60.0;         ///< Unseen for so long, an object is no longer reported.
+  /// Unseen for so long, an object is no longer reported, and stands in nobody's way any more.
+  double forget_after_s = 1800.0;
   double localisation_sigma_m = 0.005;  ///< Of the robot's own pose, added to each detection.
   double localisation_sigma_rad = 0.003;
   double upright_sigma_m = 0.01;    ///< How well objects keep to the floor: height,

@@ -94,6 +94,7 @@ class ExecutorNode {
   std::vector<ObjectState> objects_;
   double objects_stamp_s_ = -1e9;
   SilenceTimer objects_silence_;
+  SilenceTimer observation_silence_;
   nav_msgs::Odometry odometry_;
 
   CommandGuard guard_;

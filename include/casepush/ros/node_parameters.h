@@ -92,7 +92,7 @@ struct LearnerNodeParameters {
   AdaptingOptions adapting;
   PushContext context;  ///< That pushes are made in; cases are adapted and published for it.
   ResetMode reset = ResetMode::kAuto;
-  std::optional<Pose2> home;  ///< Where the object starts each push; none: the freest place.
+  std::optional<Pose2> home;  ///< Where the object starts each push; none: where the object stands.
 };
 
 struct DemoNodeParameters {

@@ -8,6 +8,7 @@
 namespace casepush {
 namespace {
 
+using test::fakeRobot;
 using test::FakeWorld;
 using test::firstTrial;
 using Phase = ExecutePush::Phase;
@@ -31,7 +32,32 @@ TEST(ExecutePushSafety, stopsAtOnceWhenTheRobotsPoseIsStaleAndGoesOnAfterwards) 
       world.advance(tick.command.twist);
     }
     world.robot_localised = true;
-    EXPECT_EQ(test::run(push, world), BehaviourStatus::kSucceeded) << push.describe();
+    // What would become of an object that rolled on while the robot stood is no push of the case.
+    const bool pushed = phase == Phase::kPush;
+    EXPECT_EQ(test::run(push, world),
+              pushed ? BehaviourStatus::kFailed : BehaviourStatus::kSucceeded)
+        << push.describe();
+    EXPECT_EQ(isObservation(*push.report()), !pushed);
+  }
+}
+
+TEST(ExecutePushSafety, startsFromAStandstillAfterAPauseWithoutTicks) {
+  for (const Phase phase : {Phase::kApproach, Phase::kPush}) {
+    FakeWorld world(4);
+    ExecutePush push = firstTrial();
+    ASSERT_TRUE(test::runUntil(push, world, phase));
+    for (int i = 0; i < 20; ++i) {
+      world.advance(push.tick(world.observe()).command.twist);
+    }
+    for (int i = 0; i < 50; ++i) {
+      world.advance(Twist2{});
+    }
+    const Tick tick = push.tick(world.observe());
+    EXPECT_LE(tick.command.twist.speed(), fakeRobot().limits.max_acceleration_mps2 * 0.2 + 1e-9);
+    if (phase == Phase::kPush) {
+      EXPECT_EQ(push.report()->outcome, PushOutcome::kTimeout);
+      EXPECT_EQ(push.describe(), "the push of chair_1 was interrupted");
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "casepush/cases/outcome_statistics.h"
 #include "casepush/common/input_error.h"
@@ -219,6 +220,37 @@ TEST(ExecutePush, plansAnewWhenTheObjectIsMovedDuringTheApproach) {
   EXPECT_LT(distance(push.report()->map_T_start, moved), 0.01);
   const Pose2 start = push.report()->recorded.steps.front().object_T_robot;
   EXPECT_LT(distance(start, test::straightPush().object_T_robot), 0.02);
+}
+
+TEST(ExecutePush, plansAnewWhenAnotherObjectComesInSightOrMovesBesideItsWay) {
+  FakeWorld world(10);
+  world.robot = Pose2(-4.0, 0.0, 0.0);
+  int plans = 0;
+  ExecutePush push =
+      firstTrial(test::straightPush(), [&plans](const Observation& o, const Pose2& g, double d) {
+        ++plans;
+        return test::detour(o, g, d);
+      });
+  ObjectState other;
+  other.id = "chair_2";
+  other.model = "disc";
+  const auto driveOn = [&](std::optional<Pose2> map_T_other) {
+    for (int i = 0; i < 20; ++i) {
+      Observation observation = world.observe();
+      if (map_T_other) {
+        other.map_T_object = *map_T_other;
+        other.stamp_s = observation.stamp_s;
+        observation.objects.push_back(other);
+      }
+      world.advance(push.tick(observation).command.twist);
+    }
+    return plans;
+  };
+  EXPECT_EQ(driveOn({}), 1);
+  EXPECT_EQ(driveOn(Pose2(-2.0, 5.0, 0.0)), 1);    // Far off.
+  EXPECT_EQ(driveOn(Pose2(-2.0, 1.0, 0.0)), 2);    // Moved to the way's side.
+  EXPECT_EQ(driveOn(Pose2(-2.05, 1.05, 0.1)), 2);  // Scatter.
+  EXPECT_EQ(driveOn(Pose2(-2.0, 0.7, 0.0)), 3);
 }
 
 TEST(ExecutePush, docksAnewWhenDockingNudgedTheObjectButNotForEver) {

@@ -105,6 +105,30 @@ TEST_F(ObjectSearchTest, leavesPlacesOutThatCanNotBeReached) {
   EXPECT_NE(nowhere.describe().find("from 1 place around"), std::string::npos);
 }
 
+TEST_F(ObjectSearchTest, looksForAnotherWayWhenSomethingComesInSightBesideIt) {
+  int asked = 0;
+  way_ = [&asked](const Observation& observation, const Pose2& goal, double direction) {
+    ++asked;
+    return test::detour(observation, goal, direction);
+  };
+  ObjectSearch on_the_way = search();
+  while (asked == 0 || max_speed_mps_ < 0.3) {
+    const Tick tick = on_the_way.tick(world_.observe());
+    max_speed_mps_ = std::max(max_speed_mps_, asked > 0 ? tick.command.twist.speed() : 0.0);
+    world_.advance(tick.command.twist);
+  }
+  EXPECT_EQ(asked, 1);
+  for (int i = 0; i < 10; ++i) {
+    Observation observation = world_.observe();
+    ObjectState other = last_seen_;
+    other.id = "chair_2";
+    other.map_T_object = world_.robot * Pose2(1.0, 0.5, 0.0);
+    observation.objects.push_back(other);
+    world_.advance(on_the_way.tick(observation).command.twist);
+  }
+  EXPECT_EQ(asked, 2);
+}
+
 TEST_F(ObjectSearchTest, doesNotPressAgainstWhatHoldsTheRobot) {
   world_.robot_blocked = true;
   ObjectSearch held = search();
