@@ -18,6 +18,11 @@ class CellTable {
 
   CellTable() : entries_(kLeast) {}
 
+  /// Tells the processor that find() will soon be asked.
+  void fetch(std::uint64_t cell) const {
+    __builtin_prefetch(&entries_[firstSlotOf(cell) & (entries_.size() - 1)]);
+  }
+
   /// nullptr if the cell has no node. Valid until an entry is added.
   Entry* find(std::uint64_t cell) {
     Entry& entry = entries_[slotOf(cell)];
@@ -49,14 +54,19 @@ class CellTable {
   static constexpr std::size_t kLeast = 512;  // A power of two, as every size.
   static constexpr int kErased = -2;          // Searches go on behind it.
 
-  // Where the cell is, or where it would be added.
-  std::size_t slotOf(std::uint64_t cell) const {
-    const std::size_t mask = entries_.size() - 1;
+  // In a table of any size, but for its mask.
+  static std::size_t firstSlotOf(std::uint64_t cell) {
     // Cells of a block of 4 x 4 x 8 lie together: a search asks for what is near again and again.
     constexpr std::uint64_t kBlock = ~(std::uint64_t{3} << 42 | std::uint64_t{3} << 21 | 7);
     const std::uint64_t mixed = (cell & kBlock) * 0x9e3779b97f4a7c15ULL;
     const std::uint64_t within = (cell >> 42 & 3) << 5 | (cell >> 21 & 3) << 3 | (cell & 7);
-    std::size_t slot = static_cast<std::size_t>(mixed >> 40 << 7 | within) & mask;
+    return static_cast<std::size_t>(mixed >> 40 << 7 | within);
+  }
+
+  // Where the cell is, or where it would be added.
+  std::size_t slotOf(std::uint64_t cell) const {
+    const std::size_t mask = entries_.size() - 1;
+    std::size_t slot = firstSlotOf(cell) & mask;
     while (entries_[slot].node != kNone && entries_[slot].cell != cell) slot = (slot + 1) & mask;
     return slot;
   }

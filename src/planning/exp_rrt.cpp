@@ -77,7 +77,7 @@ void ExpRrt::clear() {
   tree_.clear();
   random_ = Random::stream(options_.seed, "exp_rrt");
   solutions_.clear();
-  edges_ = {};
+  edges_.clear();
   must_note_all_ = false;
   is_approached_.clear();
   best_cost_s_ = kInfinity;
@@ -117,7 +117,7 @@ bool ExpRrt::start() {
       solutions_.push_back(id);
       best_cost_s_ = 0.0;
     } else if (id >= 0 && options_.similarity == Similarity::kMetric) {
-      noteBestEdge(id);
+      noteEdges(id);
       connect(id);
     }
   }
@@ -149,15 +149,11 @@ ExpRrt::Growth ExpRrt::growToGoal() {
   if (edges_.empty()) {
     noteAllEdges();  // Somebody may have stopped before all were noted.
   }
-  const std::optional<Edge> edge = chooseEdge();
+  const std::optional<EdgeQueue::Edge> edge = chooseEdge();
   if (!edge) {
-    return tree_.openIds().empty() ? Growth::kExhausted : Growth::kNothing;
+    return tree_.hasOpen() ? Growth::kNothing : Growth::kExhausted;
   }
-  const Growth growth = growAndConnect(edge->node, edge->push);
-  if (tree_.isOpen(edge->node)) {
-    noteBestEdge(edge->node);
-  }
-  return growth;
+  return growAndConnect(edge->node, edge->push);
 }
 
 ExpRrt::Growth ExpRrt::growToSample(const Pose2& pose) {
@@ -188,7 +184,7 @@ ExpRrt::Target ExpRrt::sample() {
     const double y = random_.uniform(min_m_.y(), max_m_.y());
     pose = Pose2(x, y, random_.uniform(-kPi, kPi));
     const double from_start = distance(tree_.node(0).map_T_object, pose);
-    if (!isHopeless(set_->time.lowerBound(from_start), pose)) {
+    if (!isHopeless(set_->time.lowerBound(from_start), pose.position())) {
       break;
     }
   }
@@ -197,10 +193,10 @@ ExpRrt::Target ExpRrt::sample() {
 
 // Alg. 1, line 6: MOSTSIMILAR; with a solution cost-aware.
 int ExpRrt::selectOpen(const Pose2& target) {
-  while (!tree_.openIds().empty()) {
+  while (tree_.hasOpen()) {
     const int chosen = isImproving() ? selectCheapestNear(target) : tree_.nearestOpen(target);
     const PushNode& node = tree_.node(chosen);
-    if (!isHopeless(node.cost_s, node.map_T_object)) {
+    if (!isHopeless(node.cost_s, node.map_T_object.position())) {
       return chosen;
     }
     tree_.close(chosen);
@@ -224,7 +220,8 @@ int ExpRrt::selectMostSimilar(const Pose2& target) const {
   int best = -1;
   double best_similarity = -1.0;
   double best_distance = kInfinity;
-  for (const int id : tree_.openIds()) {
+  for (int id = 0; id < tree_.size(); ++id) {
+    if (!tree_.isOpen(id)) continue;
     const Pose2& pose = tree_.node(id).map_T_object;
     const double similarity = paperSimilarity(pose, target, reach_m);
     const double d = distance(pose, target);

@@ -6,8 +6,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <queue>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,6 +15,7 @@
 #include "casepush/planning/push_checker.h"
 #include "casepush/planning/similarity.h"
 #include "chance_constraint.h"
+#include "edge_queue.h"
 #include "goal_guide.h"
 #include "push_start.h"
 #include "push_tree.h"
@@ -119,14 +118,13 @@ class ExpRrt : public ompl::base::Planner {
     bool is_goal;
   };
 
-  struct Edge {
-    double key_s;  ///< Expected time over the whole way, with greed.
-    int node;
+  /// Where a push from a node leads, and when [s].
+  struct Outlook {
+    Eigen::Vector2d end_m;
+    double end_yaw_rad;
+    double cost_s;
+    std::uint64_t cell;
     int push;
-
-    bool operator>(const Edge& other) const {
-      return std::tie(key_s, node, push) > std::tie(other.key_s, other.node, other.push);
-    }
   };
 
   bool start();
@@ -137,17 +135,17 @@ class ExpRrt : public ompl::base::Planner {
   Target sample();
   bool isImproving() const { return !solutions_.empty(); }
   bool mustStop(std::size_t work);
-  std::optional<Edge> chooseEdge();
+  std::optional<EdgeQueue::Edge> chooseEdge();
   int selectOpen(const Pose2& target);
   int selectCheapestNear(const Pose2& target);
   int selectMostSimilar(const Pose2& target) const;
-  void noteBestEdge(int node);
-  void weighEdges(int node, const PushStart& start);
+  Outlook outlook(int node, int push, const PushStart& start) const;
+  void noteEdges(int node);
   void noteAllEdges();
   int chooseCase(int node, const Pose2& target);
   int chooseCaseChecked(int node, const Pose2& target);
   bool isReachable(int node);
-  bool isPointless(int node, int push, const PushStart& start);
+  bool isPointless(int node, const Outlook& outlook);
   bool isSafe(int node, int push);
   bool isSafeByChance(int node, int push);
   Growth extend(int node, int push, int* added = nullptr);
@@ -156,10 +154,10 @@ class ExpRrt : public ompl::base::Planner {
   Growth follow(int node, const CaseChain& chain);
   double pushCost(int node, int push) const;
   double chainCost(int node, const CaseChain& chain) const;
-  double remaining(const Pose2& pose) const;
+  double remaining(const Eigen::Vector2d& position_m) const;
   double expected(const Eigen::Vector2d& position_m, double yaw_rad);
-  bool isInGoal(const Pose2& pose) const;
-  bool isHopeless(double cost_s, const Pose2& pose) const;
+  bool isInGoal(const Eigen::Vector2d& position_m, double yaw_rad) const;
+  bool isHopeless(double cost_s, const Eigen::Vector2d& position_m) const;
   void addSolutionPath(int node);
   void freeDataStates() const;
 
@@ -181,12 +179,12 @@ class ExpRrt : public ompl::base::Planner {
   std::size_t work_ = 0;             // cases looked at since somebody was asked whether to stop
   PushChance last_chance_;           // of the push that isSafe() last found safe
   std::vector<bool> is_approached_;  // nodes whose push the robot can get to
-  // The best untried edge of each node that is open, and of some that closed meanwhile.
-  std::priority_queue<Edge, std::vector<Edge>, std::greater<>> edges_;
-  bool must_note_all_ = false;                 // before the next one is taken
-  std::vector<int> nearby_;                    // scratch
+  EdgeQueue edges_;                  // untried ones of each open node, and some that are no longer
+  bool must_note_all_ = false;       // before the next one is taken
+  std::vector<int> nearby_;          // scratch
   std::vector<std::pair<double, int>> order_;  // scratch
-  std::vector<std::pair<double, int>> keys_;   // scratch
+  std::vector<Outlook> outlooks_;              // scratch
+  std::vector<EdgeQueue::Push> noted_;         // scratch
   std::vector<const CaseChain*> endings_;      // scratch
   mutable std::vector<ompl::base::State*> data_states_;
 };

@@ -47,18 +47,19 @@ bool ExpRrt::mustStop(std::size_t work) {
 }
 
 // No chain needs less time from there.
-double ExpRrt::remaining(const Pose2& pose) const {
-  return set_->time.lowerBound(distance(pose, goal_->pose()) - goal_->tolerance().position_m);
+double ExpRrt::remaining(const Eigen::Vector2d& position_m) const {
+  const double straight_m = (position_m - goal_->pose().position()).norm();
+  return set_->time.lowerBound(straight_m - goal_->tolerance().position_m);
 }
 
-bool ExpRrt::isHopeless(double cost_s, const Pose2& pose) const {
-  return isImproving() && cost_s + remaining(pose) >= best_cost_s_;
+bool ExpRrt::isHopeless(double cost_s, const Eigen::Vector2d& position_m) const {
+  return isImproving() && cost_s + remaining(position_m) >= best_cost_s_;
 }
 
-bool ExpRrt::isInGoal(const Pose2& pose) const {
+bool ExpRrt::isInGoal(const Eigen::Vector2d& position_m, double yaw_rad) const {
   const double reach_m = 1.001 * goal_->tolerance().position_m;
-  return (pose.position() - goal_->pose().position()).squaredNorm() <= reach_m * reach_m &&
-         goal_->tolerance().isMet(goal_->pose(), pose);
+  return (position_m - goal_->pose().position()).squaredNorm() <= reach_m * reach_m &&
+         goal_->tolerance().isMet(goal_->pose(), {position_m.x(), position_m.y(), yaw_rad});
 }
 
 // What is left by the guide, in the metric of the tree.
@@ -66,75 +67,65 @@ double ExpRrt::expected(const Eigen::Vector2d& position_m, double yaw_rad) {
   const Pose2& goal = goal_->pose();
   const double way_m =
       guide_ != nullptr ? guide_->at(position_m) : (position_m - goal.position()).norm();
-  const double turn_m = options_.gyration_radius_m * wrapAngle(yaw_rad - goal.yaw());
+  const double turn_m = options_.gyration_radius_m * wrapTurn(yaw_rad - goal.yaw());
   return set_->time.lowerBound(std::sqrt(way_m * way_m + turn_m * turn_m) -
                                goal_->tolerance().position_m);
 }
 
-// The untried pushes from a node that can become cheaper, with the time over the whole way.
-void ExpRrt::weighEdges(int node, const PushStart& start) {
-  const PushNode& from = tree_.node(node);
-  const double greed = isImproving() ? options_.improving_greed : options_.greed;
-  keys_.clear();
-  tree_.visitUntried(node, [&](int push) {
-    const Pose2& moved = set_->outcomes[push];
-    const Eigen::Vector2d end = start.positionOf(moved);
-    const double cost_s = from.cost_s + pushCost(node, push);
-    if (isImproving()) {
-      const double straight_m = (end - goal_->pose().position()).norm();
-      const double least_s = set_->time.lowerBound(straight_m - goal_->tolerance().position_m);
-      if (cost_s + least_s >= best_cost_s_) return;
-    }
-    keys_.emplace_back(cost_s + greed * expected(end, from.map_T_object.yaw() + moved.yaw()), push);
-  });
+ExpRrt::Outlook ExpRrt::outlook(int node, int push, const PushStart& start) const {
+  const Pose2& moved = set_->outcomes[push];
+  Outlook outlook{start.positionOf(moved), start.yawOf(moved), 0.0, 0, push};
+  outlook.cost_s = tree_.node(node).cost_s + pushCost(node, push);
+  outlook.cell = tree_.cell(outlook.end_m, outlook.end_yaw_rad);
+  return outlook;
 }
 
-void ExpRrt::noteBestEdge(int node) {
+// All that may be worth while is queued at once: no node is weighed again and again.
+void ExpRrt::noteEdges(int node) {
+  work_ += set_->cases.size();
   const PushStart start(tree_.node(node).map_T_object);
-  weighEdges(node, start);
-  const bool is_noted = visitAscending(&keys_, [&](double key_s, int push) {
-    const bool is_best = !isPointless(node, push, start);
-    if (is_best) edges_.push({key_s, node, push});
-    return is_best;
+  outlooks_.clear();
+  tree_.visitUntried(node, [&](int push) {
+    outlooks_.push_back(outlook(node, push, start));
+    tree_.fetchCoverage(outlooks_.back().cell);
   });
-  if (!is_noted) tree_.close(node);  // Nothing that is left can become cheaper.
+  const double greed = isImproving() ? options_.improving_greed : options_.greed;
+  noted_.clear();
+  for (const Outlook& each : outlooks_) {
+    if (isPointless(node, each)) continue;
+    const double key_s = each.cost_s + greed * expected(each.end_m, each.end_yaw_rad);
+    noted_.push_back({static_cast<float>(key_s), each.push});
+  }
+  edges_.add(node, &noted_);
 }
 
 // A push to where the object gets in less time, or that cannot be part of a quicker plan, counts as
 // tried. That is found out much faster than collisions.
-bool ExpRrt::isPointless(int node, int push, const PushStart& start) {
-  const Pose2 end = start * set_->outcomes[push];
-  const double cost_s = tree_.node(node).cost_s + pushCost(node, push);
+bool ExpRrt::isPointless(int node, const Outlook& outlook) {
   const bool is_pointless =
-      isHopeless(cost_s, end) || (tree_.isCovered(end, cost_s) && !isInGoal(end));
-  if (is_pointless) tree_.markPostponed(node, push);
+      isHopeless(outlook.cost_s, outlook.end_m) || (tree_.isCovered(outlook.cell, outlook.cost_s) &&
+                                                    !isInGoal(outlook.end_m, outlook.end_yaw_rad));
+  if (is_pointless) tree_.markPostponed(node, outlook.push);
   return is_pointless;
 }
 
 // The most promising pair of node and case that is safe.
-std::optional<ExpRrt::Edge> ExpRrt::chooseEdge() {
-  while (!edges_.empty() && !mustStop(set_->cases.size() + kCheck)) {
-    const Edge edge = edges_.top();
-    edges_.pop();
-    if (!tree_.isOpen(edge.node)) {
+std::optional<EdgeQueue::Edge> ExpRrt::chooseEdge() {
+  while (!edges_.empty() && !mustStop(kCheck)) {
+    if (!tree_.isOpen(edges_.nextNode())) {
+      edges_.dropFirst();
       continue;
     }
-    if (tree_.isTried(edge.node, edge.push)) {
-      noteBestEdge(edge.node);
+    const auto [node, push] = edges_.pop();
+    if (!edges_.empty()) tree_.fetch(edges_.nextNode());
+    if (push == EdgeQueue::kMore) {
+      noteEdges(node);
       continue;
     }
-    const PushStart start(tree_.node(edge.node).map_T_object);
-    if (!isPointless(edge.node, edge.push, start)) {
-      if (!isReachable(edge.node)) {
-        continue;
-      }
-      if (isSafe(edge.node, edge.push)) {
-        return edge;
-      }
-    }
-    if (tree_.isOpen(edge.node)) {
-      noteBestEdge(edge.node);
-    }
+    if (tree_.isTried(node, push)) continue;
+    const PushStart start(tree_.node(node).map_T_object);
+    if (isPointless(node, outlook(node, push, start))) continue;
+    if (isReachable(node) && isSafe(node, push)) return EdgeQueue::Edge{node, push};
   }
   return std::nullopt;
 }
@@ -193,7 +184,7 @@ int ExpRrt::chooseCase(int node, const Pose2& target) {
   int chosen = -1;
   visitAscending(&order_, [&](double, int push) {
     if (tests >= kMostTests || mustStop(kCheck)) return true;
-    if (isPointless(node, push, start)) return false;
+    if (isPointless(node, outlook(node, push, start))) return false;
     if (isSafe(node, push)) chosen = push;
     ++tests;
     return chosen >= 0;
@@ -251,8 +242,9 @@ ExpRrt::Growth ExpRrt::extend(int node, int push, int* added) {
     child.cost_s += last_chance_.recovery_s;
     child.risk = tree_.node(node).risk + last_chance_.risk;
   }
-  const bool is_goal = isInGoal(child.map_T_object);
-  const int id = isHopeless(child.cost_s, child.map_T_object) ? -1 : tree_.add(child, !is_goal);
+  const Eigen::Vector2d end_m = child.map_T_object.position();
+  const bool is_goal = isInGoal(end_m, child.map_T_object.yaw());
+  const int id = isHopeless(child.cost_s, end_m) ? -1 : tree_.add(child, !is_goal);
   if (id < 0) {
     tree_.markPostponed(node, push);
     return Growth::kNothing;
@@ -261,7 +253,7 @@ ExpRrt::Growth ExpRrt::extend(int node, int push, int* added) {
   tree_.markTried(node, push);
   if (!is_goal) {
     if (options_.similarity == Similarity::kMetric) {
-      noteBestEdge(id);
+      noteEdges(id);
     }
     if (added != nullptr) {
       *added = id;
@@ -282,13 +274,9 @@ ExpRrt::Growth ExpRrt::addSolution(int node) {
 
 void ExpRrt::noteAllEdges() {
   must_note_all_ = false;
-  edges_ = {};
-  const std::vector<int> open = tree_.openIds();
-  for (const int id : open) {
-    if (mustStop(set_->cases.size())) {
-      break;
-    }
-    noteBestEdge(id);
+  edges_.clear();
+  for (int id = 0; id < tree_.size() && !mustStop(0); ++id) {
+    if (tree_.isOpen(id)) noteEdges(id);
   }
 }
 
@@ -333,7 +321,7 @@ ExpRrt::Growth ExpRrt::follow(int node, const CaseChain& chain) {
   for (int i = 0; i < chain.count; ++i) {
     const int push = chain.pushes[i];
     const PushStart start(tree_.node(at).map_T_object);
-    if (tree_.isTried(at, push) || isPointless(at, push, start) || !isSafe(at, push)) {
+    if (tree_.isTried(at, push) || isPointless(at, outlook(at, push, start)) || !isSafe(at, push)) {
       break;
     }
     ++extension_count_;

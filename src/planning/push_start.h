@@ -6,6 +6,12 @@
 
 namespace casepush {
 
+/// The same as wrapAngle(), bit by bit, of the sum or difference of two angles in (-pi, pi].
+inline double wrapTurn(double angle_rad) {
+  if (angle_rad > M_PI) return angle_rad - 2.0 * M_PI;
+  return angle_rad <= -M_PI ? angle_rad + 2.0 * M_PI : angle_rad;
+}
+
 /// A pose at which many pushes are looked at: its trigonometry is worked out once.
 class PushStart {
  public:
@@ -23,6 +29,11 @@ class PushStart {
   Eigen::Vector2d positionOf(const Pose2& start_T_end) const {
     return {map_T_start_.x() + cosine_ * start_T_end.x() - sine_ * start_T_end.y(),
             map_T_start_.y() + sine_ * start_T_end.x() + cosine_ * start_T_end.y()};
+  }
+
+  /// The heading, in (-pi, pi] [rad].
+  double yawOf(const Pose2& start_T_end) const {
+    return wrapTurn(map_T_start_.yaw() + start_T_end.yaw());
   }
 
   /// A vector of the map in the start's frame.

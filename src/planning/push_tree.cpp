@@ -28,7 +28,6 @@ void PushTree::clear() {
   cases_.clear();
   cheapest_.clear();
   open_.clear();
-  open_ids_.clear();
 }
 
 int PushTree::add(const PushNode& node, bool grows) {
@@ -45,7 +44,7 @@ int PushTree::add(const PushNode& node, bool grows) {
       cheapest_.add(own);
     }
   }
-  nodes_.push_back({node, -1, case_count_, State::kClosed, grows});
+  nodes_.push_back({node, case_count_, State::kClosed, grows});
   cases_.resize(cases_.size() + words_);
   if (case_count_ % kBits != 0) {
     cases_.back().untried = (std::uint64_t{1} << (case_count_ % kBits)) - 1;
@@ -71,28 +70,21 @@ void PushTree::markPostponed(int id, int push) {
 
 void PushTree::openNode(int id) {
   nodes_[id].state = State::kOpen;
-  nodes_[id].open_position = static_cast<int>(open_ids_.size());
-  open_ids_.push_back(id);
   open_.insert(id, nodes_[id].node.map_T_object);
 }
 
 void PushTree::close(int id) {
-  if (!isOpen(id)) {
-    return;
-  }
+  if (!isOpen(id)) return;
   nodes_[id].state = State::kClosed;
   open_.remove(id, nodes_[id].node.map_T_object);
-  const int position = nodes_[id].open_position;
-  open_ids_[position] = open_ids_.back();
-  nodes_[open_ids_[position]].open_position = position;
-  open_ids_.pop_back();
 }
 
 int PushTree::nearestOpen(const Pose2& pose) const {
-  constexpr std::size_t kFew = 48;  // So few are faster to look through than empty buckets are.
-  if (open_ids_.size() > kFew) return open_.nearest(pose);
+  constexpr int kFew = 64;  // So few are faster to look through than empty buckets are.
+  if (size() > kFew) return open_.nearest(pose);
   std::pair<double, int> best{std::numeric_limits<double>::infinity(), -1};
-  for (const int id : open_ids_) {
+  for (int id = 0; id < size(); ++id) {
+    if (!isOpen(id)) continue;
     best = std::min(best, {squaredPoseDistance(nodes_[id].node.map_T_object, pose, rho_m_), id});
   }
   return best.second;

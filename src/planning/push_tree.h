@@ -42,11 +42,23 @@ class PushTree {
   /// @param grows  False for a node that is never to be extended, e.g. in the goal: always added.
   int add(const PushNode& node, bool grows);
 
+  /// Of all poses in a cell only the cheapest node grows. Yaw in (-pi, pi].
+  std::uint64_t cell(const Eigen::Vector2d& position_m, double yaw_rad) const {
+    return poseCell(position_m.x(), position_m.y(), yaw_rad, spacing_m_, rho_m_);
+  }
   /// Would a node that grows be turned down by add()?
-  bool isCovered(const Pose2& map_T_object, double cost_s) const {
-    const CellTable::Entry* const entry = cheapest_.find(cell(map_T_object));
+  bool isCovered(std::uint64_t cell, double cost_s) const {
+    const CellTable::Entry* const entry = cheapest_.find(cell);
     return entry != nullptr && entry->cost_s <= static_cast<float>(cost_s);
   }
+
+  /// Tells the processor that a node will soon be looked at.
+  void fetch(int id) const {
+    __builtin_prefetch(&nodes_[id]);
+    __builtin_prefetch(&cases_[wordOf(id, 0)]);
+  }
+  /// Tells the processor that isCovered() will soon be asked.
+  void fetchCoverage(std::uint64_t cell) const { cheapest_.fetch(cell); }
 
   bool isTried(int id, int push) const {
     return (cases_[wordOf(id, push)].untried >> (push % kBits) & 1) == 0;
@@ -78,8 +90,7 @@ class PushTree {
   int nearestOpen(const Pose2& pose) const;
 
   const PoseGrid& open() const { return open_; }
-  /// Ids of the open nodes in a fixed order.
-  const std::vector<int>& openIds() const { return open_ids_; }
+  bool hasOpen() const { return !open_.empty(); }
 
  private:
   enum class State : std::uint8_t { kOpen, kClosed, kRemoved };
@@ -87,7 +98,6 @@ class PushTree {
   /// All that is asked for together lies together, in one line of the processor's cache.
   struct alignas(64) Entry {
     PushNode node;
-    int open_position = -1;  // index into open_ids_
     int untried = 0;
     State state = State::kClosed;
     bool grows = false;
@@ -116,7 +126,6 @@ class PushTree {
   std::vector<Word> cases_;  // words_ for each node
   CellTable cheapest_;
   PoseGrid open_;
-  std::vector<int> open_ids_;
 };
 
 }  // namespace casepush

@@ -32,7 +32,7 @@ TEST(PushTree, closesANodeWhoseCasesWereAllTried) {
   EXPECT_FALSE(tree.isTried(root, 0));
   tree.markTried(root, 0);
   EXPECT_FALSE(tree.isOpen(root));
-  EXPECT_TRUE(tree.openIds().empty());
+  EXPECT_FALSE(tree.hasOpen());
 }
 
 TEST(PushTree, removesAWholeSubtree) {

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace casepush {
+
+/// The pushes that may be tried from the nodes of a search tree, the most promising first.
+///
+/// Each node keeps its own pushes side by side, in order. A heap holds the nodes by the best push
+/// of each: small enough to stay in the processor's caches. Not thread-safe.
+class EdgeQueue {
+ public:
+  struct Push {
+    float key_s;  ///< What it promises, >= 0: the less the sooner. Of equal ones the lower index.
+    std::int32_t index;
+
+    bool operator<(const Push& other) const {
+      return key_s != other.key_s ? key_s < other.key_s : index < other.index;
+    }
+  };
+  struct Edge {
+    int node;
+    int push;
+  };
+
+  static constexpr int kMost = 7;   ///< Pushes of a node.
+  static constexpr int kMore = -1;  ///< In the place of a push: from this key on there are others.
+
+  bool empty() const { return heap_.empty(); }
+
+  void clear() {
+    heap_.clear();
+    lists_.clear();
+  }
+
+  /// Those of a node of which none is waiting. If there are too many, the best of them and kMore.
+  /// @param pushes  Spoilt.
+  void add(int node, std::vector<Push>* pushes) {
+    if (pushes->empty()) return;
+    if (pushes->size() > kMost) {
+      const auto more = pushes->begin() + (kMost - 1);
+      std::nth_element(pushes->begin(), more, pushes->end());
+      more->index = kMore;
+      pushes->resize(kMost);
+    }
+    std::sort(pushes->begin(), pushes->end(), [](const Push& a, const Push& b) { return b < a; });
+    if (lists_.size() <= static_cast<std::size_t>(node)) lists_.resize(node + 1);
+    List& list = lists_[node];
+    list.count = static_cast<int>(pushes->size());
+    std::copy(pushes->begin(), pushes->end(), list.pushes.begin());
+    rise(entry(pushes->back().key_s, node));
+  }
+
+  /// The node of the next edge. @pre Not empty.
+  int nextNode() const { return static_cast<int>(heap_.front() & 0xffffffff); }
+
+  /// Takes the first edge out. @pre Not empty.
+  Edge pop() {
+    const int node = nextNode();
+    List& list = lists_[node];
+    const Push first = list.pushes[--list.count];
+    if (list.count > 0) {
+      sink(entry(list.pushes[list.count - 1].key_s, node));
+    } else {
+      dropFirst();
+    }
+    if (!heap_.empty()) __builtin_prefetch(&lists_[nextNode()]);
+    return {node, first.index};
+  }
+
+  /// Leaves out all of the next node. @pre Not empty.
+  void dropFirst() {
+    const Entry last = heap_.back();
+    heap_.pop_back();
+    if (!heap_.empty()) sink(last);
+  }
+
+ private:
+  /// Key and node in one number: what is positive has the order of its bits.
+  using Entry = std::uint64_t;
+
+  struct alignas(64) List {
+    std::array<Push, kMost> pushes;  ///< The first comes last.
+    int count = 0;
+  };
+
+  static constexpr std::size_t kChildren = 4;  // Fewer levels, and children lie side by side.
+
+  static Entry entry(float key_s, int node) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &key_s, sizeof(bits));
+    return static_cast<Entry>(bits) << 32 | static_cast<std::uint32_t>(node);
+  }
+
+  void rise(Entry entry) {
+    std::size_t at = heap_.size();
+    heap_.push_back(entry);
+    while (at > 0) {
+      const std::size_t parent = (at - 1) / kChildren;
+      if (heap_[parent] <= entry) break;
+      heap_[at] = heap_[parent];
+      at = parent;
+    }
+    heap_[at] = entry;
+  }
+
+  // In the place of the first one.
+  void sink(Entry entry) {
+    Entry* const heap = heap_.data();
+    const std::size_t count = heap_.size();
+    std::size_t at = 0;
+    for (std::size_t child = 1; child < count; child = kChildren * at + 1) {
+      std::size_t least = child;
+      const std::size_t end = std::min(child + kChildren, count);
+      for (std::size_t other = child + 1; other < end; ++other) {
+        least = heap[other] < heap[least] ? other : least;
+      }
+      if (heap[least] >= entry) break;
+      heap[at] = heap[least];
+      at = least;
+    }
+    heap[at] = entry;
+  }
+
+  std::vector<Entry> heap_;
+  std::vector<List> lists_;  // of each node
+};
+
+}  // namespace casepush
