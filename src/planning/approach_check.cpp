@@ -69,20 +69,20 @@ bool ApproachCheck::isDirect(const std::string& model, const PreparedCase& previ
   return known.emplace(&next, library_.isDirect(model, previous, next)).first->second;
 }
 
-float ApproachCheck::clearanceAround(int cell, float enough_m) const {
+float ApproachCheck::clearanceAround(int cell, const Eigen::Vector2d& centre_m,
+                                     float enough_m) const {
   float clear_m = grid_.clearance(cell);
   if (clear_m < enough_m || obstacles_.empty()) return clear_m;
-  const Eigen::Vector2d centre = grid_.centre(cell);
   for (const Standing& obstacle : obstacles_) {
-    clear_m = std::min(clear_m, obstacle.at(centre));
+    clear_m = std::min(clear_m, obstacle.at(centre_m));
     if (clear_m < enough_m) break;
   }
   return clear_m;
 }
 
-bool ApproachCheck::canPass(int cell) const {
+bool ApproachCheck::canPass(int cell, const Eigen::Vector2d& centre_m) const {
   const auto least_m = static_cast<float>(library_.minClearance());
-  return clearanceAround(cell, least_m) >= least_m && object_->at(grid_.centre(cell)) >= least_m;
+  return clearanceAround(cell, centre_m, least_m) >= least_m && object_->at(centre_m) >= least_m;
 }
 
 bool ApproachCheck::isFreeLine(const Pose2& from, const Pose2& to) const {
@@ -96,7 +96,8 @@ bool ApproachCheck::isFreeLine(const Pose2& from, const Pose2& to) const {
     const Eigen::Vector2d point = from.position() + i * along;
     const ClearanceGrid::Place at = grid_.locate(point);
     // Free whichever way the robot faces. The object itself was looked at on the open floor.
-    const float clear_m = at.cell >= 0 ? clearanceAround(at.cell, half_diagonal_m) : -1.0F;
+    const float clear_m =
+        at.cell >= 0 ? clearanceAround(at.cell, at.centre_m, half_diagonal_m) : -1.0F;
     if (clear_m >= half_diagonal_m) {
       i += stepsWithin(clear_m - half_diagonal_m - (point - at.centre_m).norm(), step_m);
     } else if (checker_.collides(library_.docking(),
@@ -112,7 +113,8 @@ bool ApproachCheck::canTravelAt(const Eigen::Vector2d& point) const {
   if (at.cell < 0) return false;
   const auto needed_m =
       static_cast<float>(std::max(library_.minClearance(), (at.centre_m - point).norm()));
-  return clearanceAround(at.cell, needed_m) >= needed_m && object_->at(at.centre_m) >= needed_m;
+  return clearanceAround(at.cell, at.centre_m, needed_m) >= needed_m &&
+         object_->at(at.centre_m) >= needed_m;
 }
 
 bool ApproachCheck::canGoStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
@@ -133,7 +135,7 @@ bool ApproachCheck::isClearLine(const Eigen::Vector2d& from, const Eigen::Vector
     const Eigen::Vector2d point = from + i * along;
     const ClearanceGrid::Place at = grid_.locate(point);
     if (at.cell < 0) return false;
-    float clear_m = clearanceAround(at.cell, least_m);
+    float clear_m = clearanceAround(at.cell, at.centre_m, least_m);
     if (object != nullptr) clear_m = std::min(clear_m, object->at(at.centre_m));
     if (clear_m < least_m) return false;
     i += stepsWithin(clear_m - lost_m - (point - at.centre_m).norm(), step_m);
@@ -190,8 +192,11 @@ bool ApproachCheck::canGo(Ends* from, Ends* to, int most_cells) {
 // smaller of two separate places decides soon.
 bool ApproachCheck::connects(const Ends& from, const Ends& to, int most_cells) {
   ApproachLibrary::Flood& flood = *flood_;
-  Front ahead{++flood.round, flood.round + 1, to.found.front(), flood.ahead};
-  Front back{++flood.round, flood.round - 1, from.found.front(), flood.back};
+  const std::uint32_t one = ++flood.round;
+  const std::uint32_t other = ++flood.round;
+  const std::uint32_t blocked = ++flood.round;
+  Front ahead{one, other, blocked, to.found.front(), flood.ahead};
+  Front back{other, one, blocked, from.found.front(), flood.back};
   bool met = begin(from, ahead);
   met = begin(to, back) || met;
   for (int looked = 0; !met && looked < most_cells; ++looked) {
@@ -205,7 +210,7 @@ bool ApproachCheck::connects(const Ends& from, const Ends& to, int most_cells) {
 bool ApproachCheck::begin(const Ends& ends, Front& front) {
   front.open.clear();
   bool met = false;
-  for (const Eigen::Vector2d& end : ends.found) met = visit(grid_.cell(end), front) || met;
+  for (const Eigen::Vector2d& end : ends.found) met = visit(grid_.locate(end), front) || met;
   return met;
 }
 
@@ -218,20 +223,24 @@ bool ApproachCheck::advance(Front& front) {
   bool met = false;
   for (int dy = y > 0 ? -1 : 0; dy <= (y + 1 < grid_.height() ? 1 : 0); ++dy) {
     for (int dx = x > 0 ? -1 : 0; dx <= (x + 1 < grid_.width() ? 1 : 0); ++dx) {
-      met = visit(cell + dy * grid_.width() + dx, front) || met;
+      const int next = cell + dy * grid_.width() + dx;
+      met = visit({next, grid_.centre(x + dx, y + dy)}, front) || met;
     }
   }
   return met;
 }
 
 // True if the other front has been there.
-bool ApproachCheck::visit(int cell, Front& front) {
-  std::uint32_t& visited = flood_->visited[cell];
-  if (visited == front.round) return false;
-  if (!canPass(cell)) return false;
+bool ApproachCheck::visit(const ClearanceGrid::Place& place, Front& front) {
+  std::uint32_t& visited = flood_->visited[place.cell];
+  if (visited == front.round || visited == front.blocked) return false;
   if (visited == front.other_round) return true;
+  if (!canPass(place.cell, place.centre_m)) {
+    visited = front.blocked;
+    return false;
+  }
   visited = front.round;
-  front.open.emplace_back((grid_.centre(cell) - front.towards).squaredNorm(), cell);
+  front.open.emplace_back((place.centre_m - front.towards).squaredNorm(), place.cell);
   std::push_heap(front.open.begin(), front.open.end(), std::greater<>());
   return false;
 }

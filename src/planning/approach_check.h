@@ -63,6 +63,7 @@ class ApproachCheck {
   struct Front {
     std::uint32_t round;
     std::uint32_t other_round;
+    std::uint32_t blocked;  ///< The mark of cells that neither can pass.
     Eigen::Vector2d towards;
     std::vector<std::pair<double, int>>& open;
   };
@@ -72,8 +73,9 @@ class ApproachCheck {
   const Ways& waysOf(const std::string& model, const PreparedCase& push_case);
   bool isDirect(const std::string& model, const PreparedCase& previous, const PreparedCase& next);
   /// Among map and obstacles, at least where it is less than `enough_m`.
-  float clearanceAround(int cell, float enough_m) const;
-  bool canPass(int cell) const;  ///< Also beside the object that is pushed.
+  float clearanceAround(int cell, const Eigen::Vector2d& centre_m, float enough_m) const;
+  /// Also beside the object that is pushed.
+  bool canPass(int cell, const Eigen::Vector2d& centre_m) const;
   bool isFreeLine(const Pose2& from, const Pose2& to) const;
   bool canTravelAt(const Eigen::Vector2d& point) const;
   bool canGoStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
@@ -85,7 +87,7 @@ class ApproachCheck {
   bool connects(const Ends& from, const Ends& to, int most_cells);
   bool begin(const Ends& ends, Front& front);
   bool advance(Front& front);
-  bool visit(int cell, Front& front);
+  bool visit(const ClearanceGrid::Place& place, Front& front);
   void find(std::size_t wanted, Ends* ends) const;
   Ends& waysFrom(const PlacedObject& object, const Pose2& map_T_robot);
   Ends& waysOut(const PlacedObject& object, const PreparedCase& previous);

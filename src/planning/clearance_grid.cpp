@@ -160,19 +160,19 @@ void ClearanceGrid::add(const PlacedSolid& placed, const std::vector<TravelDisc>
       const int x1 = static_cast<int>(std::min(high.x(), width_ - 1.0));
       const int y1 = static_cast<int>(std::min(high.y(), height_ - 1.0));
       if (high.x() < 0.0 || high.y() < 0.0) continue;
+      const BoundingDisc around = boundingDisc(shadow);
+      const double discs_m = around.radius_m + disc.radius_m;
       for (int y = static_cast<int>(low.y()); y <= y1; ++y) {
         for (int x = static_cast<int>(low.x()); x <= x1; ++x) {
-          const int cell = y * width_ + x;
-          const double clearance = separation(shadow, centre(cell)) - disc.radius_m;
-          clearance_m_[cell] = std::min(clearance_m_[cell], static_cast<float>(clearance));
+          float& own_m = clearance_m_[y * width_ + x];
+          const Eigen::Vector2d point = centre(x, y);
+          const double enough_m = std::max(0.0, own_m + discs_m);
+          if ((point - around.centre_m).squaredNorm() >= enough_m * enough_m) continue;
+          own_m = std::min(own_m, static_cast<float>(separation(shadow, point) - disc.radius_m));
         }
       }
     }
   }
-}
-
-Eigen::Vector2d ClearanceGrid::centre(int cell) const {
-  return origin_m_ + resolution_m_ * Eigen::Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
 }
 
 float ClearanceGrid::clearanceAlong(const Eigen::Vector2d& from_m,

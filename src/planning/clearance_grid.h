@@ -56,7 +56,10 @@ class ClearanceGrid {
 
   /// Index of the cell that holds the point; -1 outside.
   int cell(const Eigen::Vector2d& point_m) const { return locate(point_m).cell; }
-  Eigen::Vector2d centre(int cell) const;
+  Eigen::Vector2d centre(int cell) const { return centre(cell % width_, cell / width_); }
+  Eigen::Vector2d centre(int x, int y) const {
+    return origin_m_ + resolution_m_ * Eigen::Vector2d(x + 0.5, y + 0.5);
+  }
 
   /// A cell and its centre.
   struct Place {
@@ -70,7 +73,7 @@ class ClearanceGrid {
     }
     const int x = static_cast<int>(at.x());
     const int y = static_cast<int>(at.y());
-    return {y * width_ + x, origin_m_ + resolution_m_ * Eigen::Vector2d(x + 0.5, y + 0.5)};
+    return {y * width_ + x, centre(x, y)};
   }
 
   /// Smallest clearance of the cells that the straight line passes; -infinity if it leaves the

@@ -40,8 +40,7 @@ void GridSearch::visitNeighbours(int cell, Visit visit) const {
       const bool within =
           x + dx >= 0 && y + dy >= 0 && x + dx < grid_.width() && y + dy < grid_.height();
       if (!within || (dx == 0 && dy == 0)) continue;
-      const int next = cell + dy * grid_.width() + dx;
-      if (isFree(next)) visit(next, dx != 0 && dy != 0 ? M_SQRT2 : 1.0);
+      visit(cell + dy * grid_.width() + dx, dx != 0 && dy != 0 ? M_SQRT2 : 1.0);
     }
   }
 }
@@ -54,7 +53,7 @@ std::vector<std::uint8_t> GridSearch::reachable(int from) const {
     const int cell = open.back();
     open.pop_back();
     visitNeighbours(cell, [&](int next, double) {
-      if (reached[next]) return;
+      if (reached[next] || !isFree(next)) return;
       reached[next] = 1;
       open.push_back(next);
     });
@@ -90,6 +89,7 @@ std::vector<int> GridSearch::path(int from, int to) const {
     open.pop();
     if (best.cost > cost[best.cell]) continue;
     visitNeighbours(best.cell, [&](int next, double length) {
+      if (!isFree(next)) return;
       const double next_cost = best.cost + length * costFactor(next);
       if (next_cost >= cost[next]) return;
       cost[next] = next_cost;

@@ -29,7 +29,7 @@ class GridSearch {
                                       const Eigen::Vector2d& goal) const;
 
  private:
-  /// Free neighbours of a cell and the lengths of the steps, in cells.
+  /// Neighbours of a cell and the lengths of the steps, in cells.
   template <typename Visit>
   void visitNeighbours(int cell, Visit visit) const;
   double costFactor(int cell) const;
