@@ -66,15 +66,37 @@ nlohmann::ordered_json bestOfOmpl(const PlanBenchmark& measured,
   return {{"planner", planners[best]["planner"]}, {"times_as_fast", ratios}};
 }
 
-nlohmann::ordered_json plannersJson(const PlanBenchmark& measured, const std::string& world) {
+enum class Runs { kAll, kFirst };
+
+/// @param world  Empty: all.
+nlohmann::ordered_json plannersJson(const PlanBenchmark& measured, const std::string& world,
+                                    Runs which) {
   nlohmann::ordered_json planners = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < measured.planners.size(); ++i) {
     std::vector<PlanRun> runs;
     std::copy_if(measured.runs[i].begin(), measured.runs[i].end(), std::back_inserter(runs),
-                 [&world](const PlanRun& run) { return world.empty() || run.world == world; });
+                 [&world, which](const PlanRun& run) {
+                   return (world.empty() || run.world == world) &&
+                          (which == Runs::kAll || run.run == 0);
+                 });
     planners.push_back(plannerJson(measured.planners[i], runs));
   }
   return planners;
+}
+
+nlohmann::ordered_json comparisonJson(const PlanBenchmark& measured,
+                                      const std::vector<std::string>& names, Runs which) {
+  nlohmann::ordered_json worlds;
+  nlohmann::ordered_json best_by_world;
+  for (const std::string& world : names) {
+    worlds[world] = plannersJson(measured, world, which);
+    best_by_world[world] = bestOfOmpl(measured, worlds[world]);
+  }
+  const nlohmann::ordered_json planners = plannersJson(measured, "", which);
+  return {{"planners", planners},
+          {"best_ompl", bestOfOmpl(measured, planners)},
+          {"by_world", worlds},
+          {"best_ompl_by_world", best_by_world}};
 }
 
 int benchPlan(const PlanBenchArguments& arguments) {
@@ -100,24 +122,16 @@ int benchPlan(const PlanBenchArguments& arguments) {
     writeOmplLog(measured, options, started_s, log);
     if (!log.flush()) throw InputError(arguments.log, "cannot be written");
   }
-  nlohmann::ordered_json worlds;
-  nlohmann::ordered_json best_by_world;
-  for (const std::string& world : options.worlds) {
-    worlds[world] = plannersJson(measured, world);
-    best_by_world[world] = bestOfOmpl(measured, worlds[world]);
-  }
-  const nlohmann::ordered_json planners = plannersJson(measured, "");
-  printResult({{"success", true},
-               {"object", options.object},
-               {"worlds", options.worlds},
-               {"problems_per_world", options.problems},
-               {"seed", arguments.common.seed},
-               {"planners", planners},
-               {"best_ompl", bestOfOmpl(measured, planners)},
-               {"by_world", worlds},
-               {"best_ompl_by_world", best_by_world},
-               {"timing", {{"wall_s", watch.seconds()}}}},
-              arguments.common.json);
+  nlohmann::ordered_json result = {{"success", true},
+                                   {"object", options.object},
+                                   {"worlds", options.worlds},
+                                   {"problems_per_world", options.problems},
+                                   {"runs_per_problem", options.runs},
+                                   {"seed", arguments.common.seed}};
+  result.update(comparisonJson(measured, options.worlds, Runs::kAll));
+  result["first_runs"] = comparisonJson(measured, options.worlds, Runs::kFirst);
+  result["timing"] = {{"wall_s", watch.seconds()}};
+  printResult(result, arguments.common.json);
   return kExitSuccess;
 }
 
@@ -139,6 +153,11 @@ void addPlanBench(CLI::App& bench, Run& run) {
                    "Which to compare, as in plan --planner, a,b,c; default: all")
       ->delimiter(',');
   command->add_option("--problems", options.problems, "Random problems in each world")
+      ->capture_default_str();
+  command
+      ->add_option("--runs", options.runs,
+                   "Times that each planner is given each problem, one after the other, with other "
+                   "seeds; first_runs tells of the first alone")
       ->capture_default_str();
   command->add_option("--deadline", options.deadline_s, "Wall seconds for each plan")
       ->capture_default_str();

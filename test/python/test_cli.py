@@ -363,15 +363,6 @@ def test_goal_in_a_wall_is_refused_with_a_reason(case_base):
     assert "goal (0.05, 5.00, 0 deg)" in result_of(process)["error"]
 
 
-def test_bench_compares_the_caster_models():
-    process = casepush("bench", "sim", "--pushes", 2, "--swivels", 3, "--speed-time", 1, "--json")
-    assert process.returncode == 0, process.stderr
-    result = result_of(process)
-    outcomes = result["planar_against_featherstone"]
-    assert outcomes["mean_difference_m"]["median"] < outcomes["displacement_m"]["median"]
-    assert result["timing"]["planar_over_featherstone"]["pushing_one"] > 1.0
-
-
 def test_unknown_caster_models_are_refused(case_base):
     process = casepush("push", "--object", "office_chair", "--case-base", case_base,
                        "--caster-model", "flat", "--json")

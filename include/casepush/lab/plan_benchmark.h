@@ -17,6 +17,7 @@ struct PlanBenchmarkOptions {
   std::vector<std::string> worlds = {"office"};
   std::vector<PlannerKind> planners = allPlannerKinds();
   int problems = 30;         ///< In each world.
+  int runs = 1;              ///< Of each planner on each problem, each with another seed.
   double deadline_s = 10.0;  ///< For each plan.
   bool improve = false;      ///< Let planners go on after their first solution.
   std::uint64_t seed = 1;
@@ -26,6 +27,7 @@ struct PlanBenchmarkOptions {
 /// One planner on one problem.
 struct PlanRun {
   std::string world;
+  int run = 0;  ///< 0: the first on its problem.
   bool solved = false;
   double planning_s = 0.0;  ///< Wall time of the whole call, the robot's paths included.
   double cpu_s = 0.0;       ///< CPU time of the same: on a busy machine wall time says little.
@@ -36,11 +38,12 @@ struct PlanRun {
 
 struct PlanBenchmark {
   std::vector<PlannerKind> planners;
-  std::vector<std::vector<PlanRun>> runs;  ///< Of each planner, for each problem.
+  std::vector<std::vector<PlanRun>> runs;  ///< Of each planner: all of a problem, then the next.
 };
 
 /// In each world random problems that a robot that drives could solve, each given to every planner
-/// in turn. A first call without measuring makes the masks, which planners of one object share.
+/// in turn. Masks, which all planners share, are made beforehand; before its first run on a problem
+/// each planner is called once without measuring, for at most a tenth of a second.
 /// @param cases  Of the object, learnt by the world's robot.
 /// @param progress  Called with the number of finished problems.
 /// @throws InputError from the catalog, the world or validate().
