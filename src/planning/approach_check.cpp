@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "casepush/common/same_pose.h"
 #include "push_start.h"
@@ -32,10 +33,11 @@ int stepsWithin(double free_m, double step_m) {
 
 ApproachCheck::ApproachCheck(ApproachLibrary* library, const ClearanceGrid& grid,
                              const CollisionChecker& checker,
-                             const std::vector<PlacedObject>& obstacles)
+                             const std::vector<PlacedObject>& obstacles, Patience patience)
     : library_(*library),
       grid_(grid),
       checker_(checker),
+      patience_(std::move(patience)),
       flood_(library->borrowFlood(grid.size())) {
   for (const PlacedObject& obstacle : obstacles) {
     obstacles_.push_back(standing(library_.clearance(obstacle.model), obstacle.map_T_object));
@@ -177,7 +179,7 @@ bool ApproachCheck::canGoPlainly(const Eigen::Vector2d& from, const Eigen::Vecto
   return canGoAround(from, to, turn_rad) || canGoAround(from, to, other_rad);
 }
 
-bool ApproachCheck::canGo(Ends* from, Ends* to, int most_cells) {
+std::optional<bool> ApproachCheck::canGo(Ends* from, Ends* to) {
   find(1, to);
   if (to->found.empty()) return false;
   find(1, from);
@@ -185,12 +187,12 @@ bool ApproachCheck::canGo(Ends* from, Ends* to, int most_cells) {
   if (canGoPlainly(from->found.front(), to->found.front())) return true;
   find(kEnoughEnds, from);
   find(kEnoughEnds, to);
-  return connects(*from, *to, most_cells);
+  return connects(*from, *to);
 }
 
 // From both ends at once, each best first, until they meet or one of them has nothing left: the
 // smaller of two separate places decides soon.
-bool ApproachCheck::connects(const Ends& from, const Ends& to, int most_cells) {
+std::optional<bool> ApproachCheck::connects(const Ends& from, const Ends& to) {
   ApproachLibrary::Flood& flood = *flood_;
   const std::uint32_t one = ++flood.round;
   const std::uint32_t other = ++flood.round;
@@ -199,12 +201,46 @@ bool ApproachCheck::connects(const Ends& from, const Ends& to, int most_cells) {
   Front back{other, one, blocked, from.found.front(), flood.back};
   bool met = begin(from, ahead);
   met = begin(to, back) || met;
-  for (int looked = 0; !met && looked < most_cells; ++looked) {
+  for (int looked = 0; !met; ++looked) {
+    if (looked == kNearby) return std::nullopt;
     Front& front = looked % 2 == 0 ? ahead : back;
     if (front.open.empty()) return false;
     met = advance(front);
   }
   return met;
+}
+
+// All that the robot gets to is looked through once, however many pushes it might begin with, and
+// only as far as somebody asks.
+bool ApproachCheck::connectsFromAfar(const Ends& to) {
+  constexpr std::size_t kSteps = 20;  // Of a cell with its neighbours.
+  const auto note = [this](int cell) {
+    if (reached_[cell] != 0 || !canPass(cell)) return;
+    reached_[cell] = 1;
+    reached_cells_.push_back(cell);
+  };
+  if (reached_.empty()) {
+    reached_.assign(grid_.size(), 0);
+    reached_cells_.clear();
+    reached_done_ = 0;
+    for (const Eigen::Vector2d& end : begun_ends_.found) note(grid_.cell(end));
+  }
+  const auto is_there = [&] {
+    return std::any_of(to.found.begin(), to.found.end(),
+                       [this](const auto& end) { return reached_[grid_.cell(end)] != 0; });
+  };
+  while (!is_there()) {
+    if (reached_done_ == reached_cells_.size() || patience_.isOverAfter(kSteps)) return false;
+    const int cell = reached_cells_[reached_done_++];
+    const int x = cell % grid_.width();
+    const int y = cell / grid_.width();
+    for (int dy = y > 0 ? -1 : 0; dy <= (y + 1 < grid_.height() ? 1 : 0); ++dy) {
+      for (int dx = x > 0 ? -1 : 0; dx <= (x + 1 < grid_.width() ? 1 : 0); ++dx) {
+        note(cell + dy * grid_.width() + dx);
+      }
+    }
+  }
+  return true;
 }
 
 bool ApproachCheck::begin(const Ends& ends, Front& front) {
@@ -267,7 +303,7 @@ bool ApproachCheck::canFollow(const PlacedObject& object, const PreparedCase& pr
     return true;
   }
   Ends to{next.robot_begin, &waysOf(object.model, next).object_T_predock, 0, 0, {}};
-  return canGo(&waysOut(object, previous), &to, kNearby);
+  return canGo(&waysOut(object, previous), &to).value_or(false);
 }
 
 bool ApproachCheck::canReach(const PlacedObject& object, const Pose2& map_T_robot,
@@ -275,7 +311,15 @@ bool ApproachCheck::canReach(const PlacedObject& object, const Pose2& map_T_robo
   standAt(object);
   Ends to{next.robot_begin, &waysOf(object.model, next).object_T_predock, 0, 0, {}};
   find(1, &to);
-  return !to.found.empty() && canGo(&waysFrom(object, map_T_robot), &to, grid_.size());
+  if (to.found.empty()) return false;
+  Ends& from = waysFrom(object, map_T_robot);
+  if (!reached_.empty()) {  // A longer search has begun.
+    if (canGoPlainly(from.found.front(), to.found.front())) return true;
+    find(kEnoughEnds, &to);
+    return connectsFromAfar(to);
+  }
+  const std::optional<bool> can = canGo(&from, &to);
+  return can ? *can : connectsFromAfar(to);
 }
 
 // Several pushes are tried after one another.
@@ -296,6 +340,7 @@ ApproachCheck::Ends& ApproachCheck::waysFrom(const PlacedObject& object, const P
   }
   begun_.emplace(map_T_robot, object.map_T_object);
   begun_ends_ = {};
+  reached_.clear();
   std::vector<Eigen::Vector2d>& found = begun_ends_.found;
   if (canTravelAt(map_T_robot.position())) {
     found.push_back(map_T_robot.position());

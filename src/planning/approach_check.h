@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "approach_library.h"
+#include "patience.h"
 #include "push_start.h"
 
 namespace casepush {
@@ -21,8 +23,10 @@ class ApproachCheck {
  public:
   /// @param grid     Of the map, for the library's discs.
   /// @param checker  With the obstacles, without the object to be pushed. All three outlive this.
+  /// @param patience  Once it is over, the robot gets nowhere from afar.
   ApproachCheck(ApproachLibrary* library, const ClearanceGrid& grid,
-                const CollisionChecker& checker, const std::vector<PlacedObject>& obstacles);
+                const CollisionChecker& checker, const std::vector<PlacedObject>& obstacles,
+                Patience patience = Patience());
   ~ApproachCheck();
 
   /// From where `previous` left the robot to the start of `next`, with the object in between.
@@ -83,8 +87,10 @@ class ApproachCheck {
                    const Standing* object) const;
   bool canGoAround(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double turn_rad) const;
   bool canGoPlainly(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
-  bool canGo(Ends* from, Ends* to, int most_cells);
-  bool connects(const Ends& from, const Ends& to, int most_cells);
+  /// Nothing: that takes a longer search.
+  std::optional<bool> canGo(Ends* from, Ends* to);
+  std::optional<bool> connects(const Ends& from, const Ends& to);
+  bool connectsFromAfar(const Ends& to);
   bool begin(const Ends& ends, Front& front);
   bool advance(Front& front);
   bool visit(const ClearanceGrid::Place& place, Front& front);
@@ -95,12 +101,17 @@ class ApproachCheck {
   ApproachLibrary& library_;
   const ClearanceGrid& grid_;
   const CollisionChecker& checker_;
+  Patience patience_;
   std::vector<Standing> obstacles_;
   std::optional<Standing> object_;  // the one that is pushed, where it now stands
   std::unique_ptr<ApproachLibrary::Flood> flood_;
   // Of the last robot pose that canReach() was asked for.
   std::optional<std::pair<Pose2, Pose2>> begun_;
   Ends begun_ends_;
+  /// Cells that the robot gets to from there, and those to go on from; empty until asked for.
+  std::vector<std::uint8_t> reached_;
+  std::vector<int> reached_cells_;
+  std::size_t reached_done_ = 0;
   // Of the last end of a push that canFollow() was asked for.
   std::optional<std::pair<Pose2, const PreparedCase*>> left_;
   Ends left_ends_;

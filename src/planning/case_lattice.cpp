@@ -1,19 +1,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
 #include "chain_search.h"
+#include "disposal.h"
 #include "origin_distance.h"
+#include "paged_heap.h"
+#include "patience.h"
 #include "pose_cell.h"
 
 namespace casepush {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// For Patience.
+constexpr std::size_t kHeapSteps = 4;   // Of an entry that is put in order.
+constexpr std::size_t kEdgeSteps = 10;  // Of an edge that is weighed.
 
 /// A pose that was reached and whose pushes are all safe.
 struct Node {
@@ -56,15 +63,13 @@ class Lattice {
 
   /// Searches on with a smaller weight. False once `stop` says so or the nodes are used up.
   bool improve(double weight, const std::function<bool()>& stop) {
-    startRound(weight);
-    while (!open_.empty() && open_.front().priority_s < bestCost()) {
+    if (!startRound(weight, stop)) return false;
+    while (!open_.empty() && open_.top().priority_s < bestCost()) {
       if (static_cast<int>(nodes_.size()) >= problem_.max_nodes || stop()) return false;
-      std::pop_heap(open_.begin(), open_.end(), std::greater<>());
-      const Entry entry = open_.back();
-      open_.pop_back();
+      const Entry entry = open_.pop();
       if (entry.cost_s + entry.remaining_s >= bestCost()) continue;
       if (entry.node >= 0) {
-        expand(entry.node);
+        expand(entry, stop);
       } else {
         follow(entry);
       }
@@ -99,13 +104,17 @@ class Lattice {
 
   double bestCost() const { return goal_ >= 0 ? nodes_[goal_].cost_s : kInfinity; }
 
-  // Whatever is cheaper than the best chain passes through something that still waits.
+  static double leastOf(const Entry& entry) { return entry.cost_s + entry.remaining_s; }
+
+  // Whatever is cheaper than the best chain passes through something that still waits, and through
+  // something that waited when the round began.
   double provenBound() const {
-    double least_s = bestCost();
-    for (const std::vector<Entry>* waiting : {&open_, &postponed_}) {
-      for (const Entry& entry : *waiting) {
-        least_s = std::min(least_s, entry.cost_s + entry.remaining_s);
-      }
+    constexpr std::size_t kMost = 500000;  // To be looked at once the time is over.
+    double least_s = std::min(bestCost(), least_s_);
+    if (open_.size() <= kMost) {
+      least_s = bestCost();
+      for (std::size_t i = 0; i < open_.size(); ++i) least_s = std::min(least_s, leastOf(open_[i]));
+      for (const Entry& entry : postponed_) least_s = std::min(least_s, leastOf(entry));
     }
     return least_s > 0.0 ? bestCost() / least_s : 1.0;
   }
@@ -121,22 +130,28 @@ class Lattice {
     return std::max(way_s, best_turn_rate_rps_ > 0.0 ? turn_rad / best_turn_rate_rps_ : kInfinity);
   }
 
-  void startRound(double weight) {
+  // False if it was stopped: then what waits is in no order.
+  bool startRound(double weight, const std::function<bool()>& stop) {
+    const Patience patience(stop);
     ++round_;
     weight_ = weight;
-    open_.insert(open_.end(), postponed_.begin(), postponed_.end());
+    for (const Entry& entry : postponed_) open_.append(entry);
     postponed_.clear();
-    for (Entry& entry : open_) {
+    least_s_ = kInfinity;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      Entry& entry = open_[i];
+      least_s_ = std::min(least_s_, leastOf(entry));
       entry.priority_s = entry.cost_s + weight * entry.remaining_s;
+      open_.settle(i);
+      if (patience.isOverAfter(kHeapSteps)) return false;
     }
-    std::make_heap(open_.begin(), open_.end(), std::greater<>());
+    return true;
   }
 
   void wait(Entry entry) {
     if (!std::isfinite(entry.remaining_s)) return;
     entry.priority_s = entry.cost_s + weight_ * entry.remaining_s;
-    open_.push_back(entry);
-    std::push_heap(open_.begin(), open_.end(), std::greater<>());
+    open_.push(entry);
   }
 
   bool isGoal(const Pose2& pose) const {
@@ -190,13 +205,19 @@ class Lattice {
     if (is_safe) add(node);
   }
 
-  void expand(int id) {
+  void expand(const Entry& entry, const std::function<bool()>& stop) {
+    const Patience patience(stop);
+    const int id = entry.node;
     const Node node = nodes_[id];
     Cell& cell = cells_.at(cellOf(node.map_T_object));
     if (cell.node != id) return;  // A cheaper one came.
     cell.expanded_in = round_;
     const Pose2 object_T_robot = node.map_T_object.inverse() * problem_.map_T_robot;
     for (int push = 0; push < static_cast<int>(problem_.cases.size()); ++push) {
+      if (patience.isOverAfter(kEdgeSteps)) {
+        open_.append(entry);  // The search ends; what is proven must not forget this one.
+        return;
+      }
       const double step_s = node.push < 0 ? problem_.time.first(object_T_robot, push)
                                           : problem_.time.after(node.push, push);
       const Pose2 to = node.map_T_object * problem_.cases[push].start_outcome.mean;
@@ -214,10 +235,11 @@ class Lattice {
   double best_turn_rate_rps_ = 0.0;
   int round_ = 0;
   double weight_ = 1.0;
-  int goal_ = -1;  ///< The cheapest node in the goal region.
+  double least_s_ = 0.0;  ///< No chain costs less than this and than the best one.
+  int goal_ = -1;         ///< The cheapest node in the goal region.
   std::vector<Node> nodes_;
   std::unordered_map<std::uint64_t, Cell> cells_;
-  std::vector<Entry> open_;       ///< A heap, the least priority first.
+  PagedHeap<Entry> open_;         ///< The least priority first.
   std::vector<Entry> postponed_;  ///< For the next round.
 };
 
@@ -226,12 +248,14 @@ class Lattice {
 ChainResult searchLattice(const ChainProblem& problem, const LatticeOptions& options,
                           const OriginDistance& map,
                           const std::function<bool(const Pose2&, int, int)>& is_banned,
-                          const std::function<bool()>& stop) {
-  Lattice lattice(problem, options, map, is_banned);
+                          const std::function<bool()>& stop, Disposal* disposal) {
+  auto lattice = std::make_shared<Lattice>(problem, options, map, is_banned);
   for (const double weight : options.weights) {
-    if (!lattice.improve(weight, stop)) break;
+    if (!lattice->improve(weight, stop)) break;
   }
-  return lattice.result();
+  ChainResult result = lattice->result();
+  disposal->take(std::move(lattice));
+  return result;
 }
 
 }  // namespace casepush

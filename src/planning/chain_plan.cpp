@@ -26,22 +26,18 @@ struct Ban {
   }
 };
 
-}  // namespace
-
-ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
-                    const SearchClock& clock) {
+ChainPlan planChain(const SearchProblem& problem, const CaseSet& set, PushChecker* checker,
+                    const SafetyLevel& safety, const SearchClock& clock) {
   const PlanRequest& request = problem.request;
   ChainPlan made;
   made.end = PlanSearch::End::kStopped;
-  const std::shared_ptr<const CaseSet> set = caseSetFor(problem, *checker, safety.zeta, clock);
-  if (set == nullptr) return made;
-  const std::vector<PreparedCase>& cases = set->cases;
-  const PushTime& time = set->time;
+  const std::vector<PreparedCase>& cases = set.cases;
+  const PushTime& time = set.time;
   SearchChance chance(problem, cases, checker, safety);
   const bool is_lattice = problem.options.planner == PlannerKind::kLattice;
   const OriginDistance map(checker->collisions().columns(), problem.object.solid,
                            request.map_T_goal.position(), request.tolerance.position_m,
-                           [&clock] { return clock.isOver(); });
+                           clock.patience());
   if (!std::isfinite(map.at(request.object.map_T_object.position()))) {
     made.end = PlanSearch::End::kCutOff;
     return made;
@@ -54,7 +50,7 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
     made.nodes = 1;
     return made;
   }
-  ApproachVerifier approaches(problem, checker->collisions());
+  ApproachVerifier approaches(problem, checker->collisions(), [&clock] { return clock.isOver(); });
   std::vector<Ban> banned;
   const auto stop = [&clock, &made, &safety] {
     clock.report(made.nodes, std::numeric_limits<double>::infinity());
@@ -76,16 +72,12 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
     const auto is_banned = [&banned](const Pose2& pose, int previous, int push) {
       return std::find(banned.begin(), banned.end(), Ban{pose, previous, push}) != banned.end();
     };
-    bool is_late = false;
-    const auto is_over = [&](double reserve_s) {
-      is_late = stop() || clock.isOver(1.0, reserve_s);
-      return is_late;
-    };
-    const ChainResult result = is_lattice ? searchLattice(chain, lattice, map, is_banned, stop)
-                                          : searchWithOmpl(problem.options.planner, chain, is_over);
+    const ChainResult result =
+        is_lattice ? searchLattice(chain, lattice, map, is_banned, stop, problem.disposal)
+                   : searchWithOmpl(problem.options.planner, chain, stop, problem.disposal);
     made.nodes += result.nodes;
     if (!result.found) {
-      made.end = is_late || stop()  ? PlanSearch::End::kStopped
+      made.end = stop()             ? PlanSearch::End::kStopped
                  : result.exhausted ? PlanSearch::End::kExhausted
                                     : PlanSearch::End::kNodeLimit;
       return made;
@@ -111,6 +103,21 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
   }
   made.approach_problem = approaches.problem();
   made.end = stop() ? PlanSearch::End::kStopped : PlanSearch::End::kExhausted;
+  return made;
+}
+
+}  // namespace
+
+ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
+                    const SearchClock& clock) {
+  std::shared_ptr<const CaseSet> set = caseSetFor(problem, *checker, safety.zeta, clock);
+  if (set == nullptr) {
+    ChainPlan late;
+    late.end = PlanSearch::End::kStopped;
+    return late;
+  }
+  ChainPlan made = planChain(problem, *set, checker, safety, clock);
+  problem.disposal->take(std::move(set));  // There may be thousands of cases.
   return made;
 }
 

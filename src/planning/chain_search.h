@@ -11,6 +11,7 @@
 
 namespace casepush {
 
+class Disposal;
 class OriginDistance;
 
 /// A search for a chain of cases; everything must outlive it.
@@ -40,9 +41,9 @@ struct ChainResult {
 
 /// One of OMPL's stock control planners with the case as the control. Its random numbers are
 /// OMPL's: only the first seed of a process counts.
-/// @param is_over  Is there no more than so much time left [s]?
+/// @param disposal  Frees its tree, which takes up to three tenths of the time that it grew.
 ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
-                           const std::function<bool(double)>& is_over);
+                           const std::function<bool()>& stop, Disposal* disposal);
 
 struct LatticeOptions {
   double cell_m = 0.1;  ///< Of the position; the yaw's is cell_m / gyration radius.
@@ -59,9 +60,10 @@ struct LatticeOptions {
 /// recoveries; nothing is random.
 /// @param map  Of the goal.
 /// @param is_banned  Edges (pose, previous case or -1, case) that must not be used.
+/// @param disposal  Frees what has grown.
 ChainResult searchLattice(const ChainProblem& problem, const LatticeOptions& options,
                           const OriginDistance& map,
                           const std::function<bool(const Pose2&, int, int)>& is_banned,
-                          const std::function<bool()>& stop);
+                          const std::function<bool()>& stop, Disposal* disposal);
 
 }  // namespace casepush

@@ -83,18 +83,19 @@ std::vector<TravelDisc> travelDiscs(const Solid& solid, double margin_m) {
 }
 
 ClearanceGrid::ClearanceGrid(const CollisionChecker::Columns& columns,
-                             const std::vector<TravelDisc>& discs)
-    : ClearanceGrid(columns, discs, {0, columns.width - 1, 0, columns.height - 1}) {}
+                             const std::vector<TravelDisc>& discs, const Patience& patience)
+    : ClearanceGrid(columns, discs, {0, columns.width - 1, 0, columns.height - 1}, patience) {}
 
 ClearanceGrid::ClearanceGrid(const CollisionChecker::Columns& columns,
-                             const std::vector<TravelDisc>& discs, const CellBox& box)
+                             const std::vector<TravelDisc>& discs, const CellBox& box,
+                             const Patience& patience)
     : origin_m_(columns.origin_m + columns.resolution_m * Eigen::Vector2d(box.x0, box.y0)),
       resolution_m_(columns.resolution_m),
       width_(box.width()),
       height_(box.height()),
       clearance_m_(static_cast<std::size_t>(width_) * height_) {
   const double widest_m = widestOf(discs);
-  for (int cell = 0; cell < size(); ++cell) {
+  for (int cell = 0; cell < size() && !patience.isOverAfter(1); ++cell) {
     const int x = box.x0 + cell % width_;
     const int y = box.y0 + cell / width_;
     const int border = std::min({x, y, columns.width - 1 - x, columns.height - 1 - y});
@@ -103,12 +104,14 @@ ClearanceGrid::ClearanceGrid(const CollisionChecker::Columns& columns,
   }
   const CellBox seen = box.grown(rangeInCells(columns, discs), {columns.width, columns.height});
   for (const TravelDisc& disc : discs) {
-    const std::vector<float> distance = distanceToSquares(
-        occupiedIn(columns, seen, slicesOf(disc, columns.slice_m)), seen.width(), seen.height());
+    const std::vector<std::uint8_t> occupied =
+        occupiedIn(columns, seen, slicesOf(disc, columns.slice_m));
+    const std::vector<float> distance =
+        distanceToSquares(occupied, seen.width(), seen.height(), patience);
     const float* first = distance.data() +
                          static_cast<std::ptrdiff_t>(box.y0 - seen.y0) * seen.width() + box.x0 -
                          seen.x0;
-    for (int cell = 0; cell < size(); ++cell) {
+    for (int cell = 0; cell < size() && !patience.isOverAfter(1); ++cell) {
       const float cells =
           first[static_cast<std::ptrdiff_t>(cell / width_) * seen.width() + cell % width_];
       const double clearance = cells * resolution_m_ - disc.radius_m;

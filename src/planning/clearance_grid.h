@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "casepush/world/collision_checker.h"
+#include "patience.h"
 
 namespace casepush {
 
@@ -28,11 +29,13 @@ class ClearanceGrid {
 
   /// Free distance in the map alone: exact between a cell's centre and the occupied cells' squares
   /// in the height slices that a disc reaches into, and the map's border.
-  ClearanceGrid(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs);
+  /// @param patience  Once it is over, the grid is unfinished.
+  ClearanceGrid(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs,
+                const Patience& patience = Patience());
 
   /// Some cells of the grid of the whole map; `box` lies within it.
   ClearanceGrid(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs,
-                const CellBox& box);
+                const CellBox& box, const Patience& patience = Patience());
 
   /// For columns of the same extent that differ only within an area: as if made anew.
   ClearanceGrid updated(const CollisionChecker::Columns& columns,

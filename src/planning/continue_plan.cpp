@@ -80,7 +80,7 @@ bool PushPlanner::Data::mayGetStuck(const PushPlan& plan, const std::vector<Case
   request.tolerance = plan.tolerance;
   request.obstacles = obstacles;
   const SearchProblem problem = this->problem(request, own, placed);
-  ApproachVerifier ways(problem, push_checker->collisions());
+  ApproachVerifier ways(problem, push_checker->collisions(), {});
   DeadEndCheck check(request, static_cast<int>(own.size()), prepare, push_checker, &ways);
   return check.mayEndInOne(plan.object.map_T_object,
                            prepare(static_cast<int>(pushed - own.begin())));

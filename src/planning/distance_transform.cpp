@@ -9,14 +9,14 @@ namespace {
 constexpr float kFar = 1e6F;  // Cells; its square is still far from the end of float's range.
 
 /// Vertical distance to the nearest occupied square of the same column.
-std::vector<float> columnDistances(const std::vector<std::uint8_t>& occupied, int width,
-                                   int height) {
+std::vector<float> columnDistances(const std::vector<std::uint8_t>& occupied, int width, int height,
+                                   const Patience& patience) {
   std::vector<float> gap(occupied.size(), kFar);
   // Row by row, as they lie in memory: from the centre above or below each occupied square.
   std::vector<float> since(width);
   const auto sweep = [&](int first, int end, int step) {
     std::fill(since.begin(), since.end(), kFar);
-    for (int y = first; y != end; y += step) {
+    for (int y = first; y != end && !patience.isOverAfter(width); y += step) {
       const std::size_t row = static_cast<std::size_t>(y) * width;
       for (int x = 0; x < width; ++x) {
         since[x] = occupied[row + x] != 0 ? 0.0F : std::min(kFar, since[x] + 1.0F);
@@ -70,13 +70,13 @@ class Envelope {
 }  // namespace
 
 std::vector<float> distanceToSquares(const std::vector<std::uint8_t>& occupied, int width,
-                                     int height) {
-  std::vector<float> result = columnDistances(occupied, width, height);
+                                     int height, const Patience& patience) {
+  std::vector<float> result = columnDistances(occupied, width, height, patience);
   if (width == 0) return result;
   // Edge i lies between the cells i - 1 and i of a row, at x = i; centres are at x + 0.5.
   std::vector<float> edges(width + 1);
   Envelope envelope(width + 1);
-  for (int y = 0; y < height; ++y) {
+  for (int y = 0; y < height && !patience.isOverAfter(2 * width); ++y) {
     float* row = result.data() + static_cast<std::size_t>(y) * width;
     for (int i = 0; i <= width; ++i) {
       const float left = i > 0 ? row[i - 1] : kFar;

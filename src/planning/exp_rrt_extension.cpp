@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostTests = 6;       // Of a node's cases for one random sample.
-constexpr std::size_t kCheck = 64;  // A push takes so many times as long to check as to look at.
+constexpr std::size_t kCheck = 64;  // A push takes so many times as long to check as to look at,
+constexpr std::size_t kMask = 256;  // and to check for the first time.
 
 /// Visits the items in ascending order until `visit` says that it is enough; false if it never
 /// does. Spoils them.
@@ -82,7 +83,10 @@ ExpRrt::Outlook ExpRrt::outlook(int node, int push, const PushStart& start) cons
 
 // All that may be worth while is queued at once: no node is weighed again and again.
 void ExpRrt::noteEdges(int node) {
-  work_ += set_->cases.size();
+  if (mustStop(set_->cases.size())) {
+    must_note_all_ = true;
+    return;
+  }
   const PushStart start(tree_.node(node).map_T_object);
   outlooks_.clear();
   tree_.visitUntried(node, [&](int push) {
@@ -198,7 +202,7 @@ int ExpRrt::chooseCaseChecked(int node, const Pose2& target) {
   int best = -1;
   std::pair<double, double> best_key{-1.0, 0.0};
   for (int push = 0; push < static_cast<int>(set_->cases.size()); ++push) {
-    if (mustStop(kCheck)) {
+    if (mustStop(kMask)) {
       return -1;
     }
     if (tree_.isTried(node, push) || !isSafe(node, push)) {
@@ -275,7 +279,7 @@ ExpRrt::Growth ExpRrt::addSolution(int node) {
 void ExpRrt::noteAllEdges() {
   must_note_all_ = false;
   edges_.clear();
-  for (int id = 0; id < tree_.size() && !mustStop(0); ++id) {
+  for (int id = 0; id < tree_.size() && !must_note_all_; ++id) {
     if (tree_.isOpen(id)) noteEdges(id);
   }
 }

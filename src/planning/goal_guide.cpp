@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "casepush/world/shadow.h"
 #include "origin_distance.h"
@@ -22,7 +23,8 @@ constexpr int kLongestStep = static_cast<int>(kDiagonal * ObjectRoom::kTight) + 
 
 }  // namespace
 
-ObjectRoom::ObjectRoom(const CollisionChecker::Columns& columns, const Solid& object)
+ObjectRoom::ObjectRoom(const CollisionChecker::Columns& columns, const Solid& object,
+                       const Patience& patience)
     : origin_m_(columns.origin_m),
       side_(std::max(1, static_cast<int>(std::lround(kCell_m / columns.resolution_m)))),
       cell_m_(side_ * columns.resolution_m),
@@ -32,7 +34,7 @@ ObjectRoom::ObjectRoom(const CollisionChecker::Columns& columns, const Solid& ob
       outer_(travelDiscs(object, 0.0)),
       reach_m_(circumscribedRadius(object)),
       factors_(static_cast<std::size_t>(width_) * height_, 0.0F) {
-  look(columns, {0, columns.width - 1, 0, columns.height - 1});
+  look(columns, {0, columns.width - 1, 0, columns.height - 1}, patience);
 }
 
 ObjectRoom ObjectRoom::updated(const CollisionChecker::Columns& columns,
@@ -43,14 +45,15 @@ ObjectRoom ObjectRoom::updated(const CollisionChecker::Columns& columns,
   if (box.empty()) return result;
   box = {box.x0 / side_ * side_, std::min(columns.width - 1, box.x1 / side_ * side_ + side_ - 1),
          box.y0 / side_ * side_, std::min(columns.height - 1, box.y1 / side_ * side_ + side_ - 1)};
-  result.look(columns, box);
+  result.look(columns, box, Patience());
   return result;
 }
 
 // Works out the factors anew; the box ends where cells of this end.
-void ObjectRoom::look(const CollisionChecker::Columns& columns, const CellBox& box) {
-  const ClearanceGrid inside(columns, inner_, box);
-  const ClearanceGrid around(columns, outer_, box);
+void ObjectRoom::look(const CollisionChecker::Columns& columns, const CellBox& box,
+                      const Patience& patience) {
+  const ClearanceGrid inside(columns, inner_, box, patience);
+  const ClearanceGrid around(columns, outer_, box, patience);
   const auto own = [this](int x, int y) -> float& {
     return factors_[static_cast<std::size_t>(y / side_) * width_ + x / side_];
   };
@@ -58,7 +61,7 @@ void ObjectRoom::look(const CollisionChecker::Columns& columns, const CellBox& b
     for (int x = box.x0; x <= box.x1; x += side_) own(x, y) = 0.0F;
   }
   const double half_diagonal_m = columns.resolution_m * M_SQRT1_2;
-  for (int cell = 0; cell < inside.size(); ++cell) {
+  for (int cell = 0; cell < inside.size() && !patience.isOverAfter(1); ++cell) {
     if (inside.clearance(cell) < -half_diagonal_m) continue;
     float& value = own(box.x0 + cell % box.width(), box.y0 + cell / box.width());
     const float here = factor(around.clearance(cell));
@@ -128,11 +131,12 @@ std::shared_ptr<RoomLibrary> RoomLibrary::updated(const CollisionChecker& map,
   return result;
 }
 
-const ObjectRoom& RoomLibrary::get(const std::string& model) {
+const ObjectRoom* RoomLibrary::get(const std::string& model, const Patience& patience) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto found = rooms_.find(model);
-  if (found != rooms_.end()) return found->second;
-  return rooms_.try_emplace(model, *columns_, objects_.at(model).solid).first->second;
+  if (found != rooms_.end()) return &found->second;
+  ObjectRoom room(*columns_, objects_.at(model).solid, patience);
+  return patience.isOver() ? nullptr : &rooms_.emplace(model, std::move(room)).first->second;
 }
 
 GoalGuide::GoalGuide(const ObjectRoom& room, std::vector<HalfSteps> half_steps,

@@ -25,7 +25,9 @@ struct HalfSteps {
 /// How much room a map leaves an object, in cells of about 20 cm. Made once for map and object.
 class ObjectRoom {
  public:
-  ObjectRoom(const CollisionChecker::Columns& columns, const Solid& object);
+  /// @param patience  Once it is over, the room is unfinished.
+  ObjectRoom(const CollisionChecker::Columns& columns, const Solid& object,
+             const Patience& patience = Patience());
 
   /// For columns of the same extent that differ only within an area: as if made anew.
   ObjectRoom updated(const CollisionChecker::Columns& columns,
@@ -50,7 +52,7 @@ class ObjectRoom {
  private:
   std::vector<float> factors(const std::vector<PlacedSolid>& obstacles) const;
   float factor(double clearance_m) const;
-  void look(const CollisionChecker::Columns& columns, const CellBox& box);
+  void look(const CollisionChecker::Columns& columns, const CellBox& box, const Patience& patience);
 
   Eigen::Vector2d origin_m_;
   int side_;  ///< Cells of the map in one of these.
@@ -73,7 +75,8 @@ class RoomLibrary {
   std::shared_ptr<RoomLibrary> updated(const CollisionChecker& map,
                                        const CollisionChecker::Area& changed);
 
-  const ObjectRoom& get(const std::string& model);
+  /// nullptr if `patience` was over before it was made.
+  const ObjectRoom* get(const std::string& model, const Patience& patience);
 
  private:
   std::shared_ptr<const CollisionChecker::Columns> columns_;

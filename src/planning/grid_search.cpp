@@ -16,6 +16,8 @@ constexpr double kCloser_m = 0.05;
 constexpr double kShortcutClearance_m = 0.08;
 /// Travelling without any clearance costs as much as this many times the length with enough of it.
 constexpr double kTightFactor = 3.0;
+/// Of one cell with its neighbours, for Patience.
+constexpr std::size_t kSteps = 8;
 
 /// Cell to expand, the best first: lowest estimate of the whole way, then the farthest one on, then
 /// the lowest index, so that the order does not depend on the queue's implementation.
@@ -49,7 +51,7 @@ std::vector<std::uint8_t> GridSearch::reachable(int from) const {
   std::vector<std::uint8_t> reached(grid_.size(), 0);
   std::vector<int> open{from};
   reached[from] = 1;
-  while (!open.empty()) {
+  while (!open.empty() && !patience_.isOverAfter(kSteps)) {
     const int cell = open.back();
     open.pop_back();
     visitNeighbours(cell, [&](int next, double) {
@@ -85,6 +87,7 @@ std::vector<int> GridSearch::path(int from, int to) const {
   cost[from] = 0.0;
   open.push({octileDistance(from, to), 0.0, from});
   while (!open.empty() && open.top().cell != to) {
+    if (patience_.isOverAfter(kSteps)) return {};
     const OpenCell best = open.top();
     open.pop();
     if (best.cost > cost[best.cell]) continue;
@@ -122,6 +125,7 @@ std::vector<Eigen::Vector2d> GridSearch::shortcut(
     std::size_t reached = at + 1;
     float least = grid_.clearanceAlong(points[at], points[reached]);
     for (std::size_t next = reached + 1; next < points.size(); ++next) {
+      if (patience_.isOverAfter(next - at)) return {};
       least = std::min(least, grid_.clearanceAlong(points[next - 1], points[next]));
       if (grid_.clearanceAlong(points[at], points[next]) < shortcutClearance(least)) break;
       reached = next;

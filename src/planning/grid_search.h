@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "clearance_grid.h"
+#include "patience.h"
 
 namespace casepush {
 
@@ -11,8 +12,9 @@ namespace casepush {
 /// steps to any of the eight neighbours.
 class GridSearch {
  public:
-  GridSearch(const ClearanceGrid& grid, double min_clearance_m)
-      : grid_(grid), min_clearance_m_(static_cast<float>(min_clearance_m)) {}
+  /// @param patience  Once it is over, no more is found. Both outlive this.
+  GridSearch(const ClearanceGrid& grid, double min_clearance_m, const Patience& patience)
+      : grid_(grid), min_clearance_m_(static_cast<float>(min_clearance_m)), patience_(patience) {}
 
   bool isFree(int cell) const { return cell >= 0 && grid_.clearance(cell) >= min_clearance_m_; }
 
@@ -39,6 +41,7 @@ class GridSearch {
 
   const ClearanceGrid& grid_;
   float min_clearance_m_;
+  const Patience& patience_;
 };
 
 }  // namespace casepush

@@ -13,10 +13,11 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "chain_search.h"
+#include "disposal.h"
 #include "exp_rrt.h"
 #include "se2_state.h"
 
@@ -103,21 +104,10 @@ ob::PlannerPtr makePlanner(PlannerKind kind, const oc::SpaceInformationPtr& spac
 }  // namespace
 
 ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
-                           const std::function<bool(double)>& is_over) {
-  // Planners free their trees one node after the other. PDST needs nearly three tenths of the time
-  // that it took to grow a million of them; a share holds on a busy processor as well.
-  constexpr double kFreeingShare = 0.3;
-  constexpr double kFreeing_s = 3e-6;  // Of one node on a busy processor.
-  const PushPropagator* pushes = nullptr;
-  const auto begin = std::chrono::steady_clock::now();
-  const std::function<bool()> stop = [&] {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    const int nodes = pushes == nullptr ? 0 : pushes->safeCount();
-    return is_over(std::min(kFreeingShare * spent.count(), kFreeing_s * nodes));
-  };
+                           const std::function<bool()>& stop, Disposal* disposal) {
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const oc::SpaceInformationPtr space = makeSpace(problem, stop);
-  pushes = static_cast<const PushPropagator*>(space->getStatePropagator().get());
+  const auto* pushes = static_cast<const PushPropagator*>(space->getStatePropagator().get());
   const auto definition = std::make_shared<ob::ProblemDefinition>(space);
   ob::ScopedState<Se2> start(space);
   setPose(problem.map_T_start, start.get());
@@ -127,7 +117,7 @@ ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
   const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(space);
   objective->setCostThreshold(objective->infiniteCost());
   definition->setOptimizationObjective(objective);
-  const ob::PlannerPtr planner = makePlanner(kind, space);
+  ob::PlannerPtr planner = makePlanner(kind, space);
   planner->setProblemDefinition(definition);
   planner->setup();
   const ob::PlannerTerminationCondition condition(stop);
@@ -135,6 +125,7 @@ ChainResult searchWithOmpl(PlannerKind kind, const ChainProblem& problem,
   const ob::PlannerStatus status = planner->solve(condition);
   // The planner's own data takes seconds to collect.
   result.nodes = pushes->safeCount();
+  disposal->take(std::move(planner));
   if (status != ob::PlannerStatus::EXACT_SOLUTION) return result;
   const auto* path = definition->getSolutionPath()->as<oc::PathControl>();
   Pose2 pose = problem.map_T_start;

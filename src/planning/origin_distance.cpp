@@ -39,7 +39,8 @@ std::vector<TravelDisc> innerDiscs(const Solid& object) {
 /// Cells where the object's origin cannot be, with a rim of blocked ones around the map.
 class OriginDistance::BlockedCells {
  public:
-  BlockedCells(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs)
+  BlockedCells(const CollisionChecker::Columns& columns, const std::vector<TravelDisc>& discs,
+               const Patience& patience)
       : columns_(columns),
         stride_(columns.width + 2 * kRim),
         blocked_(static_cast<std::size_t>(stride_) * (columns.height + 2 * kRim), 1) {
@@ -51,7 +52,9 @@ class OriginDistance::BlockedCells {
     for (int y = margin; y < columns.height - margin; ++y) {
       std::fill_n(blocked_.begin() + index(margin, y), std::max(0, columns.width - 2 * margin), 0);
     }
-    for (const TravelDisc& disc : discs) add(slicesOf(disc, columns.slice_m), radiusInCells(disc));
+    for (const TravelDisc& disc : discs) {
+      add(slicesOf(disc, columns.slice_m), radiusInCells(disc), patience);
+    }
   }
 
   int stride() const { return stride_; }
@@ -66,7 +69,7 @@ class OriginDistance::BlockedCells {
     return disc.radius_m / columns_.resolution_m - M_SQRT1_2;
   }
 
-  void add(std::uint64_t slices, double radius) {
+  void add(std::uint64_t slices, double radius, const Patience& patience) {
     if (radius <= 0.0) return;
     std::vector<int> half_widths;  // Of the rows 0, 1, ... above and below an occupied cell.
     for (double up = 0.0; up < radius; up = static_cast<double>(half_widths.size()) - 0.5) {
@@ -76,7 +79,7 @@ class OriginDistance::BlockedCells {
     const auto occupied = [&](int x, int y) {
       return (columns_.bits[static_cast<std::size_t>(y) * columns_.width + x] & slices) != 0;
     };
-    for (int y = 0; y < columns_.height; ++y) {
+    for (int y = 0; y < columns_.height && !patience.isOverAfter(columns_.width); ++y) {
       for (int x = 0; x < columns_.width; ++x) {
         if (!occupied(x, y)) continue;
         const bool is_inner = x > 0 && y > 0 && x + 1 < columns_.width && y + 1 < columns_.height &&
@@ -110,17 +113,17 @@ class OriginDistance::BlockedCells {
 
 OriginDistance::OriginDistance(const CollisionChecker::Columns& columns, const Solid& object,
                                const Eigen::Vector2d& goal_m, double tolerance_m,
-                               const std::function<bool()>& stop)
+                               const Patience& patience)
     : origin_m_(columns.origin_m),
       resolution_m_(columns.resolution_m),
       width_(columns.width),
       height_(columns.height) {
-  const BlockedCells blocked(columns, innerDiscs(object));
+  const BlockedCells blocked(columns, innerDiscs(object), patience);
   stride_ = blocked.stride();
   first_ = blocked.index(0, 0);
   GridFlood flood(static_cast<int>(blocked.size()), stride_, kDiagonal);
   const double reach_m = tolerance_m + resolution_m_ * M_SQRT1_2;
-  for (int y = 0; y < height_; ++y) {
+  for (int y = 0; y < height_ && !patience.isOverAfter(width_); ++y) {
     for (int x = 0; x < width_; ++x) {
       const Eigen::Vector2d centre = origin_m_ + resolution_m_ * Eigen::Vector2d(x + 0.5, y + 0.5);
       if ((centre - goal_m).squaredNorm() > reach_m * reach_m) continue;
@@ -128,19 +131,14 @@ OriginDistance::OriginDistance(const CollisionChecker::Columns& columns, const S
       if (!blocked[cell]) flood.begin(cell);
     }
   }
-  constexpr std::size_t kBetweenStops = 1 << 16;
-  std::size_t settled = 0;
-  bool stopped = false;
+  constexpr std::size_t kSteps = 4;  // Of a cell with its neighbours.
   flood.spread(
       [&blocked](int, int to, bool is_diagonal) {
         return blocked[to] ? 0 : is_diagonal ? kDiagonal : kStraight;
       },
-      [&](int, int) {
-        stopped = stop && ++settled % kBetweenStops == 0 && stop();
-        return !stopped;
-      });
+      [&](int, int) { return !patience.isOverAfter(kSteps); });
   distance_ = flood.takeDistance();
-  if (stopped) std::fill(distance_.begin(), distance_.end(), 0);
+  if (patience.isOver()) std::fill(distance_.begin(), distance_.end(), 0);
 }
 
 double OriginDistance::at(const Eigen::Vector2d& point_m) const {

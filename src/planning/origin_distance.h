@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "casepush/model/geometry.h"
 #include "casepush/world/collision_checker.h"
 #include "clearance_grid.h"
+#include "patience.h"
 
 namespace casepush {
 
@@ -18,10 +18,10 @@ std::vector<TravelDisc> innerDiscs(const Solid& object);
 /// the heading. So no chain of pushes is shorter, and where the bound is infinite there is none.
 class OriginDistance {
  public:
-  /// @param stop  Asked now and then; once it says true, all that is known is 0.
+  /// @param patience  Once it is over, all that is known is 0.
   OriginDistance(const CollisionChecker::Columns& columns, const Solid& object,
                  const Eigen::Vector2d& goal_m, double tolerance_m,
-                 const std::function<bool()>& stop = {});
+                 const Patience& patience = Patience());
 
   /// At least so far to the region; infinite if it cannot be reached at all [m].
   double at(const Eigen::Vector2d& point_m) const;

@@ -91,7 +91,7 @@ std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const Pu
       cases.push_back(
           prepareCase(*push_case, zeta, step_m, problem.object.radius_m, problem.robot.radius_m));
     }
-    problem.attach_sweeps(&cases);
+    if (!problem.attach_sweeps(&cases, clock.patience())) return nullptr;
     return std::make_shared<const CaseSet>(std::move(cases), problem.options.time);
   };
   return problem.case_sets->get(problem.cases, zeta, make);
@@ -100,9 +100,7 @@ std::shared_ptr<const CaseSet> caseSetFor(const SearchProblem& problem, const Pu
 SearchChance::SearchChance(const SearchProblem& problem, const std::vector<PreparedCase>& cases,
                            PushChecker* checker, const SafetyLevel& safety) {
   if (!safety.max_collision_probability) return;
-  std::vector<Case> recorded;
-  for (const Case* const push_case : problem.cases) recorded.push_back(*push_case);
-  risk_.emplace(recorded, cases, checker, problem.options.risk);
+  risk_.emplace(problem.cases, cases, checker, problem.options.risk);
   constraint_.emplace(*risk_, *safety.max_collision_probability, problem.request.map_T_goal,
                       problem.request.tolerance);
 }
@@ -133,12 +131,16 @@ SearchClock::SearchClock(double deadline_s, std::function<bool()> stop,
 
 bool SearchClock::isCancelled() const { return stop_ && stop_(); }
 
-bool SearchClock::isOver(double share, double reserve_s) const {
-  return isCancelled() || elapsedS() >= share * deadline_s_ - reserve_s;
+bool SearchClock::isOver(double share) const {
+  return isCancelled() || elapsedS() >= share * deadline_s_;
 }
 
 double SearchClock::elapsedS() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+Patience SearchClock::patience() const {
+  return Patience([this] { return isOver(); });
 }
 
 void SearchClock::report(int nodes, double best_cost_s) const {
@@ -153,8 +155,9 @@ void SearchClock::report(int nodes, double best_cost_s) const {
 
 PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
                        const SafetyLevel& safety, std::shared_ptr<const CaseSet> cases,
-                       GoalGuide* guide, Approaches approaches)
+                       GoalGuide* guide, Approaches approaches, const SearchClock& clock)
     : problem_(problem),
+      clock_(clock),
       safety_(safety),
       chance_(problem, cases->cases, checker, safety),
       space_(makeSpace(checker)),
@@ -163,7 +166,7 @@ PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
                    approaches == Approaches::kSimple ? simpleApproach() : CanApproach())),
       checker_(checker),
       approaches_how_(approaches),
-      approaches_(problem, checker->collisions()) {
+      approaches_(problem, checker->collisions(), [&clock] { return clock.isOver(); }) {
   rrt_.setProblemDefinition(definition_);
   rrt_.setup();
   if (keepsOutOfDeadEnds(problem.options) && !safety.first_plan_will_do) {
@@ -183,13 +186,13 @@ CanApproach PlanSearch::simpleApproach() {
 
 PlanSearch::~PlanSearch() = default;
 
-PlanSearch::End PlanSearch::run(const SearchClock& clock) {
+PlanSearch::End PlanSearch::run() {
   constexpr int kMostDeadEnds = 40;
-  while (!rrt_.solutions().empty() || findFirst(clock)) {
-    improve(clock);
+  while (!rrt_.solutions().empty() || findFirst()) {
+    improve();
     const std::vector<int> chain = rrt_.chain(rrt_.solutions().front());
     const std::optional<int> unreachable =
-        approaches_how_ == Approaches::kSimple ? -1 : findUnreachable(chain, clock);
+        approaches_how_ == Approaches::kSimple ? -1 : findUnreachable(chain);
     if (!unreachable) {
       return solution_ ? End::kFound : End::kStopped;
     }
@@ -198,34 +201,31 @@ PlanSearch::End PlanSearch::run(const SearchClock& clock) {
       rrt_.reject(*unreachable);
       continue;
     }
-    const int dead_end = findDeadEnd(chain, clock);
+    const int dead_end = findDeadEnd(chain);
     if (dead_end < 0 || !solution_) solution_ = solutionOf(chain, dead_end);
     if (dead_end < 0 || ++dead_end_count_ > kMostDeadEnds) return End::kFound;
     rrt_.reject(chain[dead_end]);
   }
-  return solution_ ? End::kFound : endWithout(clock);
+  return solution_ ? End::kFound : endWithout();
 }
 
-PlanSearch::End PlanSearch::endWithout(const SearchClock& clock) const {
-  if (isLate(clock)) return End::kStopped;
-  if (!mayBeMissing() && isCutOff(clock)) return End::kCutOff;
+PlanSearch::End PlanSearch::endWithout() const {
+  if (isLate()) return End::kStopped;
+  if (!mayBeMissing() && isCutOff()) return End::kCutOff;
   return rrt_.tree().size() >= problem_.options.max_nodes ? End::kNodeLimit : End::kExhausted;
 }
 
-bool PlanSearch::findFirst(const SearchClock& clock) {
+bool PlanSearch::findFirst() {
   // A search that takes so long may have no end: then it is worth while to look at the whole map,
   // and at what the quick check of approaches turned down.
   constexpr int kQuick = 3000;
   const int quick = rrt_.extensionCount() + kQuick;
-  rrt_.solve(ob::PlannerTerminationCondition([this, quick, &clock] {
-    return rrt_.extensionCount() >= quick || isOver(clock, safety_.deadline_share);
-  }));
-  if (!rrt_.solutions().empty() || solution_ || isLate(clock) || mayBeMissing() ||
-      isCutOff(clock)) {
+  rrt_.solve(ob::PlannerTerminationCondition(
+      [this, quick] { return rrt_.extensionCount() >= quick || isOver(safety_.deadline_share); }));
+  if (!rrt_.solutions().empty() || solution_ || isLate() || mayBeMissing() || isCutOff()) {
     return !rrt_.solutions().empty();
   }
-  rrt_.solve(ob::PlannerTerminationCondition(
-      [this, &clock] { return isOver(clock, safety_.deadline_share); }));
+  rrt_.solve(ob::PlannerTerminationCondition([this] { return isOver(safety_.deadline_share); }));
   return !rrt_.solutions().empty();
 }
 
@@ -234,22 +234,21 @@ bool PlanSearch::mayBeMissing() const {
   return approaches_how_ == Approaches::kSimple && has_rejected_;
 }
 
-bool PlanSearch::isOver(const SearchClock& clock, double share) const {
+bool PlanSearch::isOver(double share) const {
   const auto& solutions = rrt_.solutions();
-  clock.report(rrt_.tree().size(), solutions.empty() ? std::numeric_limits<double>::infinity()
-                                                     : rrt_.tree().node(solutions.front()).cost_s);
-  return clock.isOver(share);
+  clock_.report(rrt_.tree().size(), solutions.empty() ? std::numeric_limits<double>::infinity()
+                                                      : rrt_.tree().node(solutions.front()).cost_s);
+  return clock_.isOver(share);
 }
 
-bool PlanSearch::isCutOff(const SearchClock& clock) const {
+bool PlanSearch::isCutOff() const {
   const OriginDistance ways(checker_->collisions().columns(), problem_.object.solid,
                             problem_.request.map_T_goal.position(),
-                            problem_.request.tolerance.position_m,
-                            [&clock] { return clock.isOver(); });
+                            problem_.request.tolerance.position_m, clock_.patience());
   return !std::isfinite(ways.at(problem_.request.object.map_T_object.position()));
 }
 
-void PlanSearch::improve(const SearchClock& clock) {
+void PlanSearch::improve() {
   if (problem_.options.similarity == Similarity::kPaper || safety_.first_plan_will_do) {
     return;  // Takes the first solution.
   }
@@ -258,9 +257,8 @@ void PlanSearch::improve(const SearchClock& clock) {
         std::int64_t{rrt_.extensionCount()} + problem_.options.improvement_extensions;
   }
   const double share = approaches_how_ == Approaches::kSimple ? kSimpleShare : kThoroughShare;
-  const ob::PlannerTerminationCondition stop([this, share, &clock] {
-    return rrt_.extensionCount() >= improvement_end_ || isOver(clock, share);
-  });
+  const ob::PlannerTerminationCondition stop(
+      [this, share] { return rrt_.extensionCount() >= improvement_end_ || isOver(share); });
   const auto wanted = static_cast<std::size_t>(problem_.options.solutions);
   std::size_t before = 0;
   while (rrt_.solutions().size() < wanted && rrt_.solutions().size() > before) {
@@ -269,16 +267,16 @@ void PlanSearch::improve(const SearchClock& clock) {
   }
 }
 
-std::optional<int> PlanSearch::findUnreachable(const std::vector<int>& chain,
-                                               const SearchClock& clock) {
+std::optional<int> PlanSearch::findUnreachable(const std::vector<int>& chain) {
   for (std::size_t i = 1; i < chain.size(); ++i) {
     if (std::find(approachable_.begin(), approachable_.end(), chain[i]) != approachable_.end()) {
       continue;
     }
-    if (clock.isOver()) {
+    if (clock_.isOver()) {
       return std::nullopt;
     }
     if (!canApproach(chain[i])) {
+      if (clock_.isOver()) return std::nullopt;
       return chain[i];
     }
     approachable_.push_back(chain[i]);
@@ -294,9 +292,12 @@ bool PlanSearch::canApproach(int node) {
   return approaches_.canApproach(start.map_T_object, previous, rrt_.cases()[pushed.push]);
 }
 
-ApproachVerifier::ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker)
+ApproachVerifier::ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker,
+                                   std::function<bool()> stop)
     : problem_(problem),
-      quick_(problem.approaches, problem.travel, checker, problem.request.obstacles),
+      stop_(std::move(stop)),
+      quick_(problem.approaches, problem.travel, checker, problem.request.obstacles,
+             Patience(stop_)),
       checker_(checker) {}
 
 bool ApproachVerifier::canApproach(const Pose2& map_T_object, const PreparedCase* previous,
@@ -312,7 +313,7 @@ bool ApproachVerifier::canApproach(const Pose2& map_T_object, const PreparedCase
   checker.setObstacles(std::move(standing));
   const RobotPath path =
       problem_.paths.plan(checker, map_T_robot, map_T_object * next.robot_begin,
-                          wrapAngle(map_T_object.yaw() + next.push_direction_rad));
+                          wrapAngle(map_T_object.yaw() + next.push_direction_rad), stop_);
   if (!path.found) {
     explanation_ = path.explanation;
   }
@@ -326,7 +327,7 @@ bool ApproachVerifier::canApproachSimply(const Pose2& map_T_object, const Prepar
                              : quick_.canFollow(object, *previous, next);
 }
 
-int PlanSearch::findDeadEnd(const std::vector<int>& chain, const SearchClock& clock) {
+int PlanSearch::findDeadEnd(const std::vector<int>& chain) {
   if (!dead_ends_) return -1;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     if (std::find(open_ended_.begin(), open_ended_.end(), chain[i]) != open_ended_.end()) continue;
@@ -334,9 +335,9 @@ int PlanSearch::findDeadEnd(const std::vector<int>& chain, const SearchClock& cl
     const Pose2& map_T_start = rrt_.tree().node(pushed.parent).map_T_object;
     const PreparedCase& push = rrt_.cases()[pushed.push];
     const bool may_end =
-        dead_ends_->mayEndInOne(map_T_start, push, [&clock] { return clock.isOver(); });
+        dead_ends_->mayEndInOne(map_T_start, push, [this] { return clock_.isOver(); });
     if (may_end) return static_cast<int>(i);
-    if (clock.isOver()) return -1;
+    if (clock_.isOver()) return -1;
     open_ended_.push_back(chain[i]);
   }
   return -1;

@@ -14,8 +14,10 @@
 #include "case_set.h"
 #include "casepush/planning/push_planner.h"
 #include "chance_constraint.h"
+#include "disposal.h"
 #include "exp_rrt.h"
 #include "goal_guide.h"
+#include "patience.h"
 
 namespace casepush {
 
@@ -26,9 +28,11 @@ class SearchClock {
               std::function<void(const PlanProgress&)> report = {});
 
   bool isCancelled() const;
-  /// True once cancelled or `share` of the time until the deadline has passed, but for a reserve.
-  bool isOver(double share = 1.0, double reserve_s = 0.0) const;
+  /// True once cancelled or `share` of the time until the deadline has passed.
+  bool isOver(double share = 1.0) const;
   double elapsedS() const;
+  /// Asks for the whole time. Must not outlive this.
+  Patience patience() const;
 
   /// Reports if a while has passed since the last report or the best cost went down.
   /// @param nodes  Of the present search.
@@ -55,11 +59,12 @@ struct SearchProblem {
   const PushPlannerOptions& options;
   const RobotPathPlanner& paths;
   const std::vector<PlacedSolid>& obstacles;
-  std::function<void(std::vector<PreparedCase>*)> attach_sweeps;
+  /// False if it was stopped.
+  std::function<bool(std::vector<PreparedCase>*, const Patience&)> attach_sweeps;
   ApproachLibrary* approaches;
   const ClearanceGrid& travel;  ///< Of the map, for the robot.
   CaseSetLibrary* case_sets;
-  const ObjectRoom& room;
+  Disposal* disposal;
 };
 
 /// Exp-RRT as it is by default, with a metric: of nodes near to one another only one grows.
@@ -71,7 +76,9 @@ bool keepsOutOfDeadEnds(const PushPlannerOptions& options);
 /// Decides whether the robot can get from push to push.
 class ApproachVerifier {
  public:
-  ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker);
+  /// @param stop  Asked often; once it says true, the robot gets nowhere from afar.
+  ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker,
+                   std::function<bool()> stop);
 
   /// @param previous  The push that brought the object to `map_T_object`; nullptr for the first.
   bool canApproach(const Pose2& map_T_object, const PreparedCase* previous,
@@ -86,6 +93,7 @@ class ApproachVerifier {
 
  private:
   const SearchProblem& problem_;
+  std::function<bool()> stop_;
   ApproachCheck quick_;
   CollisionChecker checker_;
   std::string explanation_;
@@ -135,11 +143,12 @@ class PlanSearch {
  public:
   /// All must outlive it.
   PlanSearch(const SearchProblem& problem, PushChecker* checker, const SafetyLevel& safety,
-             std::shared_ptr<const CaseSet> cases, GoalGuide* guide, Approaches approaches);
+             std::shared_ptr<const CaseSet> cases, GoalGuide* guide, Approaches approaches,
+             const SearchClock& clock);
   ~PlanSearch();
 
   enum class End { kFound, kExhausted, kNodeLimit, kStopped, kCutOff };
-  End run(const SearchClock& clock);
+  End run();
 
   /// What it found. @pre run() returned kFound.
   struct Solution {
@@ -157,22 +166,23 @@ class PlanSearch {
 
  private:
   CanApproach simpleApproach();
-  bool findFirst(const SearchClock& clock);
+  bool findFirst();
   bool mayBeMissing() const;
-  bool isCutOff(const SearchClock& clock) const;
-  bool isOver(const SearchClock& clock, double share) const;  ///< Reports, too.
-  bool isLate(const SearchClock& clock) const { return clock.isOver(safety_.deadline_share); }
-  void improve(const SearchClock& clock);
+  bool isCutOff() const;
+  bool isOver(double share) const;  ///< Reports, too.
+  bool isLate() const { return clock_.isOver(safety_.deadline_share); }
+  void improve();
   /// The first node of the chain that the robot cannot push to; -1 if there is none; nothing if
   /// the clock ran out.
-  std::optional<int> findUnreachable(const std::vector<int>& chain, const SearchClock& clock);
+  std::optional<int> findUnreachable(const std::vector<int>& chain);
   bool canApproach(int node);
   /// Where in the chain the object may get stuck first; -1 if nowhere.
-  int findDeadEnd(const std::vector<int>& chain, const SearchClock& clock);
+  int findDeadEnd(const std::vector<int>& chain);
   Solution solutionOf(const std::vector<int>& chain, int dead_end) const;
-  End endWithout(const SearchClock& clock) const;
+  End endWithout() const;
 
   const SearchProblem& problem_;
+  const SearchClock& clock_;
   SafetyLevel safety_;
   SearchChance chance_;
   ompl::base::SpaceInformationPtr space_;

@@ -44,6 +44,7 @@ PushPlanner::Data::Data(std::shared_ptr<const Map> new_map, RobotModel new_robot
       checker(notEmpty(map)),
       paths(robot, options.robot_path),
       robot_footprint(checker.footprint(robot.solid, options.robot_margin_m)),
+      disposal(std::make_shared<Disposal>()),
       library(std::make_shared<SweepLibrary>(std::size_t{1000000} * options.mask_memory_mb)),
       approaches(std::make_shared<ApproachLibrary>(checker, robot, objects, options.robot_path)),
       case_sets(std::make_shared<CaseSetLibrary>()),
@@ -90,13 +91,14 @@ SearchProblem PushPlanner::Data::problem(const PlanRequest& request,
           options,
           paths,
           obstacles,
-          [this, &own](std::vector<PreparedCase>* prepared) {
-            library->attach(own.sweeps->classes(), own.grown, robot_footprint, prepared);
+          [this, &own](std::vector<PreparedCase>* prepared, const Patience& patience) {
+            return library->attach(own.sweeps->classes(), own.grown, robot_footprint, prepared,
+                                   patience);
           },
           approaches.get(),
           *travel,
           case_sets.get(),
-          rooms->get(request.object.model)};
+          disposal.get()};
 }
 
 PushPlanner::PushPlanner(std::shared_ptr<const Map> map, RobotModel robot,

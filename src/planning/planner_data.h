@@ -10,6 +10,7 @@
 #include "case_set.h"
 #include "casepush/planning/push_checker.h"
 #include "casepush/planning/push_planner.h"
+#include "disposal.h"
 #include "goal_guide.h"
 #include "plan_request.h"
 #include "plan_search.h"
@@ -35,6 +36,7 @@ struct PushPlanner::Data {
   RobotPathPlanner paths;
   std::shared_ptr<const Footprint> robot_footprint;
   std::map<std::string, Footprints> footprints;
+  std::shared_ptr<Disposal> disposal;
   std::shared_ptr<SweepLibrary> library;
   std::shared_ptr<ApproachLibrary> approaches;
   std::shared_ptr<CaseSetLibrary> case_sets;

@@ -95,13 +95,13 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
             std::move(made.approach_problem)};
   }
   outcome.end = PlanSearch::End::kStopped;
-  const auto cases = caseSetFor(problem, *checker, safety.zeta, clock);
+  std::shared_ptr<const CaseSet> cases = caseSetFor(problem, *checker, safety.zeta, clock);
   if (cases == nullptr) {
     return outcome;
   }
   for (const Approaches approaches : {Approaches::kSimple, Approaches::kThorough}) {
-    PlanSearch search(problem, checker, safety, cases, guide, approaches);
-    outcome.end = search.run(clock);
+    PlanSearch search(problem, checker, safety, cases, guide, approaches, clock);
+    outcome.end = search.run();
     addTree(search.rrt(), result);
     outcome.nodes = search.rrt().tree().size();
     outcome.approach_problem = search.approachProblem();
@@ -114,6 +114,7 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
     }
     clock.addNodes(outcome.nodes);
   }
+  problem.disposal->take(std::move(cases));  // There may be thousands of them.
   return outcome;
 }
 
@@ -139,6 +140,12 @@ PlanResult failed(PlanStatus status, std::string explanation) {
   result.status = status;
   result.explanation = std::move(explanation);
   return result;
+}
+
+PlanResult stopped(const PlanRequest& request, const SearchClock& clock) {
+  if (clock.isCancelled()) return failed(PlanStatus::kCancelled, "cancelled while planning");
+  return failed(PlanStatus::kDeadline, "no plan within " + rounded(request.deadline_s, 1) +
+                                           " s; allow more time or move the goal");
 }
 
 }  // namespace
@@ -181,11 +188,12 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
 PlanResult PushPlanner::Data::search(const PlanRequest& request,
                                      const std::vector<const Case*>& cases,
                                      const SearchClock& clock) const {
+  const ObjectRoom* room = rooms->get(request.object.model, clock.patience());
+  if (room == nullptr) return stopped(request, clock);
   const std::vector<PlacedSolid> obstacles = placeObstacles(request.obstacles, objects);
   const Footprints& own = footprints.at(request.object.model);
   const auto scene = scenes->get(request.object.model, request.obstacles, [&] {
-    return Scene{own.sweeps->withObstaclesOf(checkerWith(obstacles)),
-                 rooms->get(request.object.model).halfSteps(obstacles)};
+    return Scene{own.sweeps->withObstaclesOf(checkerWith(obstacles)), room->halfSteps(obstacles)};
   });
   PushChecker push_checker = pushChecker(request.object.model, scene->sweeps);
   if (const auto problem = checkStartAndGoal(request, push_checker.collisions(), *own.exact)) {
@@ -193,7 +201,7 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
   }
   push_checker.tolerateStart(request.object.map_T_object);
   const SearchProblem problem = this->problem(request, cases, obstacles);
-  GoalGuide guide(problem.room, scene->room, request.object.map_T_object.position(),
+  GoalGuide guide(*room, scene->room, request.object.map_T_object.position(),
                   request.map_T_goal.position(), request.tolerance.position_m);
   if (!guide.reachesStart()) {
     Outcome cut_off;
@@ -251,13 +259,10 @@ PushPlanner::Data::Attempt PushPlanner::Data::searchLevel(const SearchProblem& p
     result.explanation = solvedText(result, options);
     return attempt;
   }
-  // OMPL's planners stop a little earlier, to free their trees; a lesser level has no time left.
-  if (outcome.end == PlanSearch::End::kStopped && (clock.isOver() || isOmpl(options.planner))) {
-    const bool cancelled = clock.isCancelled();
-    result.status = cancelled ? PlanStatus::kCancelled : PlanStatus::kDeadline;
-    result.explanation = cancelled ? "cancelled while planning"
-                                   : "no plan within " + rounded(problem.request.deadline_s, 1) +
-                                         " s; allow more time or move the goal";
+  if (outcome.end == PlanSearch::End::kStopped && clock.isOver()) {
+    const PlanResult why = stopped(problem.request, clock);
+    result.status = why.status;
+    result.explanation = why.explanation;
     return attempt;
   }
   result.status = PlanStatus::kUnreachable;

@@ -53,16 +53,22 @@ struct PushRisk::Deviations {
   std::vector<std::pair<Pose2, Eigen::Matrix3d>> stops;  ///< With the mean in the start frame.
 };
 
-PushRisk::PushRisk(const std::vector<Case>& cases, const std::vector<PreparedCase>& prepared,
+PushRisk::PushRisk(std::vector<const Case*> cases, const std::vector<PreparedCase>& prepared,
                    PushChecker* checker, const RiskOptions& options)
-    : prepared_(prepared), checker_(*checker), options_(options) {
-  for (const Case& push_case : cases) {
-    stops_.push_back(stopsOf(push_case));
-    guards_.push_back(guardsOf(push_case));
-  }
+    : prepared_(prepared),
+      checker_(*checker),
+      options_(options),
+      cases_(std::move(cases)),
+      motions_(cases_.size()) {
   for (const Eigen::Vector3d& normal : normalSamples(kDirections, kSeed)) {
     directions_.push_back(normal.normalized());
   }
+}
+
+const PushRisk::Motion& PushRisk::motion(int push) const {
+  std::optional<Motion>& known = motions_[push];
+  if (!known) known = Motion{stopsOf(*cases_[push]), guardsOf(*cases_[push])};
+  return *known;
 }
 
 // Half way, at three quarters and at the end: scatter grows along the way.
@@ -94,7 +100,7 @@ Eigen::Matrix3d PushRisk::startCovariance(const std::vector<int>& pushes) const 
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   const int known = std::min(static_cast<int>(pushes.size()), options_.horizon - 1);
   for (int i = known - 1; i >= 0; --i) {
-    const Stop& end = stops_[pushes[i]].back();
+    const Stop& end = motion(pushes[i]).stops.back();
     covariance = end.carry * covariance * end.carry.transpose() + end.covariance;
   }
   return covariance;
@@ -126,7 +132,7 @@ bool PushRisk::isMotionFarFromAll(int push, const Pose2& map_T_start,
   const auto deviation = [&](const Guard& guard) {
     return shift_m + turn_rad * guard.start_point_m.norm() + guard.range_m;
   };
-  const Guards& guards = guards_[push];
+  const Guards& guards = motion(push).guards;
   return std::all_of(guards.object.begin(), guards.object.end(),
                      [&](const Guard& guard) {
                        return checker_.isObjectFarFromAll(map_T_start * guard.start_point_m,
@@ -145,7 +151,7 @@ PushRisk::Deviations PushRisk::deviationsOf(int push, const Pose2& map_T_start,
   if (!is_known && !isMotionFarFromAll(push, map_T_start, start_covariance)) {
     deviations.start = rootOf(start_covariance);
   }
-  for (const Stop& stop : stops_[push]) {
+  for (const Stop& stop : motion(push).stops) {
     const Eigen::Matrix3d covariance =
         stop.carry * start_covariance * stop.carry.transpose() + stop.covariance;
     const double shift_m = kRadii.back() * std::sqrt(covariance.topLeftCorner<2, 2>().trace());
@@ -200,14 +206,14 @@ double PushRisk::collisionProbability(int push, const Pose2& map_T_start,
 double PushRisk::missProbability(int push, const Pose2& map_T_start,
                                  const Eigen::Matrix3d& start_covariance, const Pose2& map_T_goal,
                                  const GoalTolerance& tolerance) const {
-  const Stop& end = stops_[push].back();
+  const Stop& end = motion(push).stops.back();
   const PoseGaussian pose =
       compound({map_T_start, start_covariance}, {end.start_T_object, end.covariance});
   return 1.0 - goalProbability(pose, map_T_goal, tolerance);
 }
 
 double PushRisk::expectedReplans(int push, const GoalTolerance& tolerance) const {
-  const Eigen::Matrix3d& covariance = stops_[push].back().covariance;
+  const Eigen::Matrix3d& covariance = cases_[push]->start_outcome.covariance;
   const double shifts =
       covariance.topLeftCorner<2, 2>().trace() / (tolerance.position_m * tolerance.position_m);
   const double turns = covariance(2, 2) / (tolerance.yaw_rad * tolerance.yaw_rad);
@@ -248,17 +254,18 @@ std::vector<SafetyLevel> safetyLevels(const RiskOptions& options, double zeta) {
 
 void assessPlan(const std::vector<Case>& cases, const PreparationSizes& sizes,
                 const RiskOptions& options, PushChecker* checker, PushPlan* plan) {
-  std::vector<Case> used;
+  std::vector<const Case*> used;
+  std::vector<PreparedCase> prepared;
   std::vector<int> pushes;
   for (const PlannedPush& push : plan->pushes) {
     const Case* found = findCase(cases, push.case_id);
     CASEPUSH_CHECK(found != nullptr, "no case " << push.case_id);
     pushes.push_back(static_cast<int>(used.size()));
-    used.push_back(*found);
+    used.push_back(found);
+    prepared.push_back(
+        prepareCase(*found, 0.0, sizes.step_m, sizes.object_radius_m, sizes.robot_radius_m));
   }
-  const std::vector<PreparedCase> prepared =
-      prepareCases(used, 0.0, sizes.step_m, sizes.object_radius_m, sizes.robot_radius_m);
-  assessPlan(PushRisk(used, prepared, checker, options), pushes, plan);
+  assessPlan(PushRisk(std::move(used), prepared, checker, options), pushes, plan);
 }
 
 std::string riskExplanation(const PushPlan& rest) {

@@ -25,7 +25,7 @@ class PushRisk {
  public:
   /// @param cases, prepared  The same cases; prepared for the mean alone (zeta 0). They and the
   ///   checker must outlive this.
-  PushRisk(const std::vector<Case>& cases, const std::vector<PreparedCase>& prepared,
+  PushRisk(std::vector<const Case*> cases, const std::vector<PreparedCase>& prepared,
            PushChecker* checker, const RiskOptions& options);
 
   /// Where a push may start if the ones before it scattered: covariance in the frame of the mean.
@@ -49,7 +49,7 @@ class PushRisk {
   double expectedReplans(int push, const GoalTolerance& tolerance) const;
 
   const RiskOptions& options() const { return options_; }
-  int caseCount() const { return static_cast<int>(stops_.size()); }
+  int caseCount() const { return static_cast<int>(cases_.size()); }
 
   static constexpr int kDirections = 32;
 
@@ -69,8 +69,13 @@ class PushRisk {
     std::vector<Guard> object;
     std::vector<Guard> robot;
   };
+  struct Motion {
+    std::vector<Stop> stops;  ///< The outcome last.
+    Guards guards;
+  };
   struct Deviations;
 
+  const Motion& motion(int push) const;
   static std::vector<Stop> stopsOf(const Case& push_case);
   static Guards guardsOf(const Case& push_case);
   bool isMotionFarFromAll(int push, const Pose2& map_T_start,
@@ -85,8 +90,9 @@ class PushRisk {
   const std::vector<PreparedCase>& prepared_;
   PushChecker& checker_;
   RiskOptions options_;
-  std::vector<std::vector<Stop>> stops_;     ///< Of each case, the outcome last.
-  std::vector<Guards> guards_;               ///< Of each case.
+  std::vector<const Case*> cases_;
+  /// Of each case, worked out when it is first asked for: there may be thousands.
+  mutable std::vector<std::optional<Motion>> motions_;
   std::vector<Eigen::Vector3d> directions_;  ///< Unit vectors.
 };
 

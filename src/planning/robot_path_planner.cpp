@@ -24,6 +24,7 @@ struct Query {
   const CollisionChecker& checker;
   const ClearanceGrid& grid;
   const GridSearch& search;
+  const Patience& patience;
   const Footprint& plain;    ///< The robot's true shape.
   const Footprint& docking;  ///< Grown by the docking margin.
 
@@ -219,7 +220,7 @@ RobotPath planFromContact(const Query& query, const Pose2& start, const Pose2& g
   DockLine dock(query, goal, dock_direction_rad);
   Undocking undocking(query, start);
   std::vector<std::uint8_t> tried(query.grid.size(), 0);
-  while (const auto pre_dock = dock.next()) {
+  while (const auto pre_dock = query.patience.isOver() ? std::nullopt : dock.next()) {
     const int cell = query.grid.cell(pre_dock->position());
     if (tried[cell]) continue;
     const auto reached = query.search.reachable(cell);
@@ -263,11 +264,15 @@ struct RobotPathPlanner::Cache {
 
   explicit Cache(std::vector<TravelDisc> discs_of_robot) : discs(std::move(discs_of_robot)) {}
 
-  Prepared prepare(const CollisionChecker& checker, const Solid& robot, double dock_margin_m) {
+  /// Without a grid if `patience` was over before that was made.
+  Prepared prepare(const CollisionChecker& checker, const Solid& robot, double dock_margin_m,
+                   const Patience& patience) {
     const std::lock_guard<std::mutex> lock(mutex);
     const auto columns = checker.mapColumns();
     if (prepared.columns == columns) return prepared;
-    prepared.grid = std::make_shared<ClearanceGrid>(*columns, discs);
+    auto grid = std::make_shared<ClearanceGrid>(*columns, discs, patience);
+    if (patience.isOver()) return {};
+    prepared.grid = std::move(grid);
     const bool other_resolution =
         !prepared.columns || prepared.columns->resolution_m != columns->resolution_m;
     if (other_resolution) {
@@ -318,12 +323,23 @@ RobotPathPlanner RobotPathPlanner::updated(const CollisionChecker& before,
 }
 
 RobotPath RobotPathPlanner::plan(const CollisionChecker& checker, const Pose2& map_T_robot,
-                                 const Pose2& goal, double dock_direction_rad) const {
+                                 const Pose2& goal, double dock_direction_rad,
+                                 const std::function<bool()>& stop) const {
+  const Patience patience(stop);
+  RobotPath path = planWith(checker, map_T_robot, goal, dock_direction_rad, patience);
+  return patience.isOver() ? failure("stopped before a path was found") : path;
+}
+
+RobotPath RobotPathPlanner::planWith(const CollisionChecker& checker, const Pose2& map_T_robot,
+                                     const Pose2& goal, double dock_direction_rad,
+                                     const Patience& patience) const {
   if (!map_T_robot.isFinite()) return failure("start pose is not finite");
   if (!goal.isFinite() || !std::isfinite(dock_direction_rad)) {
     return failure("dock pose or direction is not finite");
   }
-  const Cache::Prepared prepared = cache_->prepare(checker, robot_.solid, options_.dock_margin_m);
+  const Cache::Prepared prepared =
+      cache_->prepare(checker, robot_.solid, options_.dock_margin_m, patience);
+  if (prepared.grid == nullptr) return {};
   for (const Contact& contact : checker.contacts(*prepared.plain, goal)) {
     const bool tolerated =
         contact.with == Contact::With::kObstacle && contact.depth_m <= options_.contact_tolerance_m;
@@ -342,8 +358,8 @@ RobotPath RobotPathPlanner::plan(const CollisionChecker& checker, const Pose2& m
   }
   // Half a diagonal step off a cell's centre the discs without margin must still be free.
   const double half_diagonal_m = grid.resolution() * M_SQRT1_2;
-  const GridSearch search(grid, std::max(0.0, half_diagonal_m - options_.margin_m));
-  const Query query{checker, grid, search, *prepared.plain, *prepared.docking};
+  const GridSearch search(grid, std::max(0.0, half_diagonal_m - options_.margin_m), patience);
+  const Query query{checker, grid, search, patience, *prepared.plain, *prepared.docking};
   if (!query.canTravel(map_T_robot, Query::Clear::kHere)) {
     RobotPath path = planFromContact(query, map_T_robot, goal, dock_direction_rad);
     if (path.found || !query.canTravel(map_T_robot, Query::Clear::kInCell)) return path;

@@ -12,6 +12,7 @@ namespace {
 /// What was not wanted for so many searches is forgotten.
 constexpr std::uint64_t kKeptFor = 16;
 constexpr double kNearlyFull = 0.75;
+constexpr std::size_t kSteps = 2000;  // To make a sweep or free one, for Patience.
 
 bool same(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
   if (a.size() != b.size()) return false;
@@ -72,13 +73,15 @@ SweepLibrary::Entry& SweepLibrary::entryOf(std::vector<Track> tracks,
   return entries_.emplace(hash, std::move(entry))->second;
 }
 
-void SweepLibrary::forgetUnused() {
-  for (auto entry = entries_.begin(); entry != entries_.end();) {
-    entry = entry->second.last_use + kKeptFor < uses_ ? entries_.erase(entry) : std::next(entry);
+void SweepLibrary::forgetUnused(const Patience& patience) {
+  for (auto entry = entries_.begin(); entry != entries_.end() && !patience.isOver();) {
+    const bool is_used = entry->second.last_use + kKeptFor >= uses_;
+    if (!is_used) patience.isOverAfter(kSteps);
+    entry = is_used ? std::next(entry) : entries_.erase(entry);
   }
 }
 
-void SweepLibrary::makeRoom() {
+void SweepLibrary::makeRoom(const Patience& patience) {
   std::vector<Entries::iterator> oldest;
   for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
     Entry& own = entry->second;
@@ -96,7 +99,7 @@ void SweepLibrary::makeRoom() {
   // What another search still works with is freed when that ends.
   std::size_t used = memory_->used();
   for (const auto& entry : oldest) {
-    if (used <= memory_->limit() / 2) break;
+    if (used <= memory_->limit() / 2 || patience.isOverAfter(kSteps)) break;
     used -= std::min(used, entry->second.bytes);
     Entry fresh = entry->second;
     fresh.sweep = std::make_shared<const Sweep>(fresh.sweep->tracks(), fresh.classes, memory_);
@@ -105,19 +108,21 @@ void SweepLibrary::makeRoom() {
   }
 }
 
-void SweepLibrary::attach(const std::shared_ptr<const HeightClasses>& classes,
+bool SweepLibrary::attach(const std::shared_ptr<const HeightClasses>& classes,
                           const std::shared_ptr<const Footprint>& object,
                           const std::shared_ptr<const Footprint>& robot,
-                          std::vector<PreparedCase>* cases) {
+                          std::vector<PreparedCase>* cases, const Patience& patience) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  makeRoom();
+  makeRoom(patience);
   ++uses_;
   for (PreparedCase& push_case : *cases) {
+    if (patience.isOverAfter(kSteps)) return false;
     Entry& entry = entryOf(tracksOf(push_case, object, robot), classes);
     entry.last_use = uses_;
     push_case.sweep = entry.sweep;
   }
-  forgetUnused();
+  forgetUnused(patience);
+  return true;
 }
 
 }  // namespace casepush

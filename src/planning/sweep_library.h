@@ -9,6 +9,7 @@
 
 #include "casepush/planning/prepared_cases.h"
 #include "casepush/world/sweep_checker.h"
+#include "patience.h"
 
 namespace casepush {
 
@@ -23,10 +24,11 @@ class SweepLibrary {
   explicit SweepLibrary(std::size_t memory_bytes)
       : memory_(std::make_shared<MaskMemory>(memory_bytes)) {}
 
-  /// Gives each case its sweep.
-  void attach(const std::shared_ptr<const HeightClasses>& classes,
+  /// Gives each case its sweep; false if `patience` was over before that.
+  bool attach(const std::shared_ptr<const HeightClasses>& classes,
               const std::shared_ptr<const Footprint>& object,
-              const std::shared_ptr<const Footprint>& robot, std::vector<PreparedCase>* cases);
+              const std::shared_ptr<const Footprint>& robot, std::vector<PreparedCase>* cases,
+              const Patience& patience = Patience());
 
   std::size_t usedBytes() const { return memory_->used(); }
 
@@ -41,8 +43,8 @@ class SweepLibrary {
   using Entries = std::unordered_multimap<std::size_t, Entry>;
 
   Entry& entryOf(std::vector<Track> tracks, const std::shared_ptr<const HeightClasses>& classes);
-  void forgetUnused();
-  void makeRoom();
+  void forgetUnused(const Patience& patience);
+  void makeRoom(const Patience& patience);
 
   std::mutex mutex_;
   std::shared_ptr<MaskMemory> memory_;

@@ -317,7 +317,8 @@ ClearingResult PushPlanner::Data::clearAway(const ClearingRequest& request,
   const SearchProblem search = problem(plan_request, own, standing);
   const KeptFree free =
       keptFree(request, cases, objects, robot, kStepPerCell * checker.columns().resolution_m);
-  ApproachVerifier approaches_of(search, push_checker.collisions());
+  ApproachVerifier approaches_of(search, push_checker.collisions(),
+                                 [&clock] { return clock.isOver(); });
   Drives drives(*travel, *approaches, standing, search.object.solid, nextPlace(request, cases));
   ClearingResult result;
   result.explanation = "no push of " + request.obstacle.model +

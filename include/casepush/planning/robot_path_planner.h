@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "casepush/world/collision_checker.h"
 
 namespace casepush {
+
+class Patience;
 
 struct RobotPathOptions {
   double margin_m = 0.04;       ///< Kept from everything while driving freely.
@@ -53,11 +56,15 @@ class RobotPathPlanner {
   ///   pushed next.
   /// @param dock_direction_rad  Heading in the map of the straight motion that ends in `goal`
   ///   (the direction of the push).
+  /// @param stop  Asked often; once it says true, no path is found.
   RobotPath plan(const CollisionChecker& checker, const Pose2& map_T_robot, const Pose2& goal,
-                 double dock_direction_rad) const;
+                 double dock_direction_rad, const std::function<bool()>& stop = {}) const;
 
  private:
   struct Cache;
+
+  RobotPath planWith(const CollisionChecker& checker, const Pose2& map_T_robot, const Pose2& goal,
+                     double dock_direction_rad, const Patience& patience) const;
 
   RobotModel robot_;
   RobotPathOptions options_;

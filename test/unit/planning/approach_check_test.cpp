@@ -51,6 +51,62 @@ TEST(ApproachCheck, isSufficient) {
   EXPECT_LT(found, 150);
 }
 
+// From anywhere, some places shut off; whatever was asked before.
+TEST(ApproachCheck, reachesFromAfarWhatThePathPlannerReaches) {
+  WorldModel world = furnishedRoom();
+  world.boxes.push_back(standing("screen", 1.5, 13.0, 2.8, 0.1, 1.5));
+  world.boxes.push_back(standing("other_screen", 2.9, 14.0, 0.1, 2.0, 1.5));
+  Scene scene(world);
+  const RobotPathPlanner paths(scene.robot, scene.options);
+  ApproachLibrary library(scene.checker, scene.robot, scene.objects, scene.options);
+  const ClearanceGrid grid(scene.checker.columns(), library.discs());
+  ApproachCheck check(&library, grid, scene.checker, {});
+  const auto object = scene.checker.footprint(testChair().solid);
+  const std::vector<PreparedCase> cases =
+      prepareCases(syntheticPushes(6, 5), 0.0, 0.025, testChair().radius_m, scene.robot.radius_m);
+  Random random(4);
+  int accepted = 0;
+  int found = 0;
+  int all = 0;
+  for (int i = 0; i < 12; ++i) {
+    const Pose2 pose = randomFreePose(scene.checker, *object, &random);
+    const Pose2 robot =
+        i % 3 == 0 ? Pose2(1.5, 14.0, 0.0) : randomFreePose(scene.checker, *object, &random);
+    CollisionChecker standing = scene.checker;
+    standing.setObstacles({{testChair().solid, pose}});
+    for (const PreparedCase& next : cases) {
+      const bool truth =
+          paths.plan(standing, robot, pose * next.robot_begin, pose.yaw() + next.push_direction_rad)
+              .found;
+      const bool quick = check.canReach({"", "chair", pose}, robot, next);
+      EXPECT_TRUE(truth || !quick) << pose.x() << " " << pose.y();
+      accepted += quick;
+      found += truth;
+      ++all;
+    }
+  }
+  EXPECT_GT(accepted, 0.8 * found);
+  EXPECT_GT(found, all / 3);
+  EXPECT_LT(found, 0.9 * all);
+}
+
+TEST(RobotPathPlanner, endsWhenStopped) {
+  Scene scene(emptyRoom());
+  ApproachLibrary library(scene.checker, scene.robot, scene.objects, scene.options);
+  const ClearanceGrid grid(scene.checker.columns(), library.discs());
+  const PreparedCase push = prepareCase(syntheticPushes(1, 5).front(), 0.0, 0.025,
+                                        testChair().radius_m, scene.robot.radius_m);
+  bool is_over = false;
+  RobotPathPlanner paths(scene.robot, scene.options);
+  const auto stop = [&is_over] { return is_over; };
+  const Pose2 goal = Pose2(3.0, 3.0, 0.0) * push.robot_begin;
+  EXPECT_TRUE(paths.plan(scene.checker, Pose2(12.0, 12.0, 0.0), goal, 0.0, stop).found);
+  is_over = true;
+  const RobotPath path = paths.plan(scene.checker, Pose2(12.0, 12.0, 0.0), goal, 0.0, stop);
+  EXPECT_FALSE(path.found);
+  EXPECT_EQ(path.explanation, "stopped before a path was found");
+}
+
 TEST(OriginDistance, isALowerBoundAndSeesWalls) {
   Scene scene(furnishedRoom());
   const Eigen::Vector2d goal(11.5, 3.0);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "planning/chain_search.h"
+#include "planning/disposal.h"
 #include "planning/furnished_room.h"
 #include "planning/origin_distance.h"
 #include "planning/synthetic_pushes.h"
@@ -57,7 +58,7 @@ class GridWorld {
     lattice.weights = weights;
     const ChainResult result = searchLattice(
         problem, lattice, *ways_, [](const Pose2&, int, int) { return false; },
-        stop ? stop : [] { return false; });
+        stop ? stop : [] { return false; }, &disposal_);
     checks_ = checker.checkCount();
     return result;
   }
@@ -118,6 +119,7 @@ class GridWorld {
   GoalTolerance tolerance_;
   std::unique_ptr<OriginDistance> ways_;
   int checks_ = 0;
+  Disposal disposal_;
 };
 
 class CaseLatticeTest : public testing::TestWithParam<int> {};

@@ -26,7 +26,7 @@ class OriginDistanceTest : public testing::Test {
                                    const Eigen::Vector2d& goal_m,
                                    const std::function<bool()>& stop = {}) {
     const CollisionChecker checker(mapOf(world, 0.05));
-    return {checker.columns(), disc(radius_m), goal_m, 0.2, stop};
+    return {checker.columns(), disc(radius_m), goal_m, 0.2, stop ? Patience(stop) : Patience()};
   }
 };
 

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "planning/planner_fixture.h"
 
@@ -20,6 +22,34 @@ class PlannerKindsTest : public testing::TestWithParam<PlannerKind> {
   }
 
   std::vector<Case> cases_;
+};
+
+double threadSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Somebody who wishes to stop after some CPU time, and notes how often he is asked.
+class Asked {
+ public:
+  explicit Asked(double patience_s) : end_s_(threadSeconds() + patience_s) {}
+  /// How long a call goes on that was last asked now. Once it was told to stop, that counts.
+  void note() {
+    const double now_s = threadSeconds();
+    longest_s_ = std::max(longest_s_, now_s - last_s_);
+    if (last_s_ < end_s_) last_s_ = now_s;
+  }
+  bool wishesToStop() {
+    note();
+    return last_s_ >= end_s_;
+  }
+  double longestPauseS() const { return longest_s_; }
+
+ private:
+  double end_s_;
+  double last_s_ = threadSeconds();
+  double longest_s_ = 0.0;
 };
 
 // Near and with a wide goal, so that planners that are made for other things are quick, too.
@@ -100,6 +130,25 @@ TEST_P(PlannerKindsTest, returnsSoonAfterItsDeadline) {
       planner->plan(request, cases);
       const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
       EXPECT_LT(spent.count(), deadline_s + kLate_s) << cases.size() << " cases";
+    }
+  }
+}
+
+// In CPU time, with dead ends looked for and far more masks than there is memory for. Mostly it
+// asks every millisecond; the bound leaves room for a busy processor and what happens within OMPL.
+TEST_P(PlannerKindsTest, asksOftenWhetherToStop) {
+  constexpr double kLongest_s = 0.04;
+  const std::vector<Case> many = syntheticPushes(10000, 7);
+  PushPlannerOptions narrow = options();
+  narrow.mask_memory_mb = 20;
+  const auto planner = plannerFor(furnishedRoom(), narrow);
+  for (const double patience_s : {0.05, 0.3, 0.3}) {
+    for (const std::vector<Case>* cases :
+         std::initializer_list<const std::vector<Case>*>{&cases_, &many}) {
+      Asked asked(patience_s);
+      planner->plan(requestFor(kStart, kGoal), *cases, [&asked] { return asked.wishesToStop(); });
+      asked.note();
+      EXPECT_LT(asked.longestPauseS(), kLongest_s) << cases->size() << " cases, " << patience_s;
     }
   }
 }

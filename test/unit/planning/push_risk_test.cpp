@@ -23,7 +23,10 @@ class PushRiskTest : public testing::Test {
     checker_ = std::make_unique<PushChecker>(
         *collisions_, PushChecker::Body{object_, chair_.radius_m},
         PushChecker::Body{collisions_->footprint(robot_.solid), robot_.radius_m});
-    risk_ = std::make_unique<PushRisk>(cases_, prepared_, checker_.get(), options);
+    std::vector<const Case*> cases_of_risk;
+    for (const Case& each : cases_) cases_of_risk.push_back(&each);
+    risk_ =
+        std::make_unique<PushRisk>(std::move(cases_of_risk), prepared_, checker_.get(), options);
   }
 
   Eigen::Vector3d normal() {
