@@ -215,7 +215,7 @@ std::optional<bool> ApproachCheck::connects(const Ends& from, const Ends& to) {
 bool ApproachCheck::connectsFromAfar(const Ends& to) {
   constexpr std::size_t kSteps = 20;  // Of a cell with its neighbours.
   const auto note = [this](int cell) {
-    if (reached_[cell] != 0 || !canPass(cell)) return;
+    if (reached_[cell] != 0 || !canPass(cell, grid_.centre(cell))) return;
     reached_[cell] = 1;
     reached_cells_.push_back(cell);
   };

@@ -193,10 +193,9 @@ class ExecutorNodeTest(PushingTest):
 
         self.commands.clear()
         harness.wait_until(is_told_to_stand, what="a command")
-        harness.wait_until(lambda: self.state.last().activity == ExecutorState.IDLE,
-                           what="the executor to be free again")
-        self.assertEqual(self.result(self.execute_push, ExecutePushGoal()).status,
-                         ExecutePushResult.INVALID_GOAL)
+        # Nobody drives any more after a while, and the executor is still there to answer.
+        harness.wait_until(lambda: self.result(self.execute_push, ExecutePushGoal()).status ==
+                           ExecutePushResult.INVALID_GOAL, what="the executor to be free again")
 
     def test_refuses_a_second_goal(self):
         self.start_moving(self.execute_push, self.replay())
