@@ -1,5 +1,6 @@
 #include "chance_constraint.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace casepush {
@@ -27,6 +28,10 @@ std::optional<PushChance> ChanceConstraint::judge(int push, const Pose2& map_T_s
   // A mean motion that collides risks infinitely much: too much even where anything is allowed.
   if (!std::isfinite(chance.risk) || chance.risk > left) return std::nullopt;
   double failure = collision;
+  if (risk_.options().recovery_s > 0.0) {
+    const Eigen::Matrix3d drifted = risk_.driftedCovariance(before_);
+    failure = std::max(failure, risk_.obstructionProbability(push, map_T_start, drifted));
+  }
   if (tolerance_.isMet(map_T_goal_, map_T_end)) {
     failure += risk_.missProbability(push, map_T_start, start, map_T_goal_, tolerance_);
   }

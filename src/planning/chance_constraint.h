@@ -21,7 +21,8 @@ class ChanceConstraint {
   ChanceConstraint(const PushRisk& risk, double max_collision_probability, const Pose2& map_T_goal,
                    const GoalTolerance& tolerance);
 
-  /// Expected time of the re-plans that the scatter of a push brings about [s].
+  /// Expected time of the re-plans that the scatter of a push brings about, as the rest of the plan
+  /// misses its goal for it [s].
   double driftS(int push) const { return drift_s_[push]; }
 
   /// What a push from a node of the search adds; nothing if the chain would risk too much.
@@ -31,7 +32,7 @@ class ChanceConstraint {
   std::optional<PushChance> judge(const NodeAt& node_at, int from, int push,
                                   const Pose2& map_T_end) {
     before_.clear();
-    const auto wanted = static_cast<std::size_t>(risk_.options().horizon - 1);
+    const auto wanted = static_cast<std::size_t>(risk_.pushesThatCount());
     for (int id = from; node_at(id).parent >= 0 && before_.size() < wanted;
          id = node_at(id).parent) {
       before_.push_back(node_at(id).push);

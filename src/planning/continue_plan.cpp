@@ -41,10 +41,10 @@ void PushPlanner::Data::chain(const std::vector<Case>& cases, PushChecker* push_
     pose = push.map_outcome.mean;
   }
   rest->chained = true;
-  if (rest->explanation.empty() && plan.max_collision_probability) {
+  if (plan.max_collision_probability) {
     assessPlan(cases, {step_m, object_radius_m, robot.radius_m}, options.risk, push_checker, &plan);
-    rest->explanation = riskExplanation(plan);
-    rest->applicable = rest->explanation.empty() ? rest->applicable : 0;
+    rest->applicable = std::min(rest->applicable, bearablePushes(plan));
+    if (rest->explanation.empty()) rest->explanation = riskExplanation(plan);
   }
   if (rest->explanation.empty() && !plan.tolerance.isMet(plan.map_T_goal, pose)) {
     rest->explanation = "the rest of the plan now ends at " + describe(pose) + ", " +

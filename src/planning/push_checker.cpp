@@ -108,10 +108,22 @@ bool PushChecker::isSafe(const PreparedCase& push_case, const Pose2& map_T_objec
   }
   ++check_count_;
   if (!sweeps_->collides(*push_case.sweep, map_T_object)) return true;
-  // Only near the tolerated start may a motion overlap anything.
-  const double reach_m = push_case.sweep->reach() + kToleranceRange_m;
-  return tolerated_depth_m_ > 0.0 && distance(map_T_object, tolerated_start_) <= reach_m &&
+  return mayBeTolerated(*push_case.sweep, map_T_object) &&
          conflict(push_case, map_T_object) == PushConflict::kNone;
+}
+
+// Only near the tolerated start may a motion overlap anything.
+bool PushChecker::mayBeTolerated(const Sweep& sweep, const Pose2& map_T_object) const {
+  return tolerated_depth_m_ > 0.0 &&
+         distance(map_T_object, tolerated_start_) <= sweep.reach() + kToleranceRange_m;
+}
+
+bool PushChecker::mayCollide(const PreparedCase& push_case, const Pose2& map_T_object) {
+  if (!sweeps_ || !push_case.sweep || mayBeTolerated(*push_case.sweep, map_T_object)) {
+    return !isSafe(push_case, map_T_object);
+  }
+  ++check_count_;
+  return sweeps_->mayCollide(*push_case.sweep, map_T_object);
 }
 
 PushConflict PushChecker::conflict(const PreparedCase& push_case, const Pose2& map_T_object) {

@@ -21,6 +21,8 @@ constexpr std::uint64_t kSeed = 1;
 /// Standardised radii at which a direction is tested: fine enough for a factor of about two in what
 /// lies beyond.
 constexpr std::array<double, 8> kRadii = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0};
+/// Coarser, where a few hundredths are no matter.
+constexpr std::array<double, 4> kCoarseRadii = {0.75, 1.5, 2.25, 3.0};
 
 /// Probability that a standard normal in three dimensions is farther out.
 double beyond(double radius) {
@@ -28,10 +30,36 @@ double beyond(double radius) {
          std::sqrt(2.0 / M_PI) * radius * std::exp(-0.5 * radius * radius);
 }
 
+/// Probability of all that lies behind the first obstacle in a direction.
+/// @param radii  Where `collides` is asked, ascending.
+template <std::size_t kCount, typename Collides>
+double blockedBeyond(const std::array<double, kCount>& radii, const Collides& collides) {
+  if (!collides(radii.back())) return 0.0;
+  std::size_t free = 0;  // Radii before this one are free, as the mean is.
+  std::size_t blocked = kCount - 1;
+  while (free < blocked) {
+    const std::size_t middle = (free + blocked) / 2;
+    if (collides(radii[middle])) {
+      blocked = middle;
+    } else {
+      free = middle + 1;
+    }
+  }
+  const double inside = blocked > 0 ? radii[blocked - 1] : 0.0;
+  return 0.5 * (beyond(inside) + beyond(radii[blocked]));
+}
+
 /// Any root does for isotropic directions; this one takes few operations.
 Eigen::Matrix3d rootOf(const Eigen::Matrix3d& covariance) {
   const Eigen::LLT<Eigen::Matrix3d> llt(covariance);
   return llt.info() == Eigen::Success ? Eigen::Matrix3d(llt.matrixL()) : covarianceRoot(covariance);
+}
+
+/// What the rest of a plan may risk. Twice what a new plan may: else every rest near the limit
+/// would be planned anew for the least deviation.
+double bearable(const PushPlan& rest) {
+  constexpr double kSlack = 2.0;
+  return kSlack * rest.max_collision_probability.value_or(1.0);
 }
 
 }  // namespace
@@ -96,14 +124,21 @@ std::vector<PushRisk::Stop> PushRisk::stopsOf(const Case& push_case) {
   return stops;
 }
 
-Eigen::Matrix3d PushRisk::startCovariance(const std::vector<int>& pushes) const {
+Eigen::Matrix3d PushRisk::compounded(const std::vector<int>& pushes, int count) const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  const int known = std::min(static_cast<int>(pushes.size()), options_.horizon - 1);
-  for (int i = known - 1; i >= 0; --i) {
+  for (int i = std::min(static_cast<int>(pushes.size()), count) - 1; i >= 0; --i) {
     const Stop& end = motion(pushes[i]).stops.back();
     covariance = end.carry * covariance * end.carry.transpose() + end.covariance;
   }
   return covariance;
+}
+
+Eigen::Matrix3d PushRisk::startCovariance(const std::vector<int>& pushes) const {
+  return compounded(pushes, options_.horizon - 1);
+}
+
+Eigen::Matrix3d PushRisk::driftedCovariance(const std::vector<int>& pushes) const {
+  return compounded(pushes, pushesThatCount());
 }
 
 PushRisk::Guards PushRisk::guardsOf(const Case& push_case) {
@@ -173,23 +208,6 @@ bool PushRisk::collidesAt(int push, const Pose2& map_T_start, const Deviations& 
          !checker_.isSafe(prepared_[push], map_T_start * expSe2(*deviations.start * offset));
 }
 
-double PushRisk::blockedBeyond(int push, const Pose2& map_T_start, const Deviations& deviations,
-                               const Eigen::Vector3d& direction) const {
-  if (!collidesAt(push, map_T_start, deviations, kRadii.back() * direction)) return 0.0;
-  std::size_t free = 0;  // Radii before this one are free, as the mean is.
-  std::size_t blocked = kRadii.size() - 1;
-  while (free < blocked) {
-    const std::size_t middle = (free + blocked) / 2;
-    if (collidesAt(push, map_T_start, deviations, kRadii[middle] * direction)) {
-      blocked = middle;
-    } else {
-      free = middle + 1;
-    }
-  }
-  const double inside = blocked > 0 ? kRadii[blocked - 1] : 0.0;
-  return 0.5 * (beyond(inside) + beyond(kRadii[blocked]));
-}
-
 double PushRisk::collisionProbability(int push, const Pose2& map_T_start,
                                       const Eigen::Matrix3d& start_covariance, double limit) const {
   if (!checker_.isSafe(prepared_[push], map_T_start)) return 1.0;
@@ -197,10 +215,29 @@ double PushRisk::collisionProbability(int push, const Pose2& map_T_start,
   if (!deviations.start && deviations.stops.empty()) return 0.0;
   double probability = 0.0;
   for (const Eigen::Vector3d& direction : directions_) {
-    probability += blockedBeyond(push, map_T_start, deviations, direction) / kDirections;
+    const double blocked = blockedBeyond(kRadii, [&](double radius) {
+      return collidesAt(push, map_T_start, deviations, radius * direction);
+    });
+    probability += blocked / kDirections;
     if (probability > limit) break;
   }
   return std::min(1.0, probability);
+}
+
+double PushRisk::obstructionProbability(int push, const Pose2& map_T_start,
+                                        const Eigen::Matrix3d& start_covariance) const {
+  if (start_covariance.isZero(0.0) || isMotionFarFromAll(push, map_T_start, start_covariance)) {
+    return 0.0;
+  }
+  const Eigen::Matrix3d root = rootOf(start_covariance);
+  double probability = 0.0;
+  for (int i = 0; i < kCoarseDirections; ++i) {
+    const Eigen::Vector3d offset = root * directions_[i];
+    probability += blockedBeyond(kCoarseRadii, [&](double radius) {
+      return checker_.mayCollide(prepared_[push], map_T_start * expSe2(radius * offset));
+    });
+  }
+  return probability / kCoarseDirections;
 }
 
 double PushRisk::missProbability(int push, const Pose2& map_T_start,
@@ -268,14 +305,23 @@ void assessPlan(const std::vector<Case>& cases, const PreparationSizes& sizes,
   assessPlan(PushRisk(std::move(used), prepared, checker, options), pushes, plan);
 }
 
+int bearablePushes(const PushPlan& rest) {
+  double sum = 0.0;
+  int count = 0;
+  for (const PlannedPush& push : rest.pushes) {
+    sum += riskOf(push.collision_probability);
+    if (probabilityOf(sum) > bearable(rest)) break;
+    ++count;
+  }
+  return count;
+}
+
 std::string riskExplanation(const PushPlan& rest) {
-  constexpr double kSlack = 2.0;
-  const double limit = rest.max_collision_probability.value_or(1.0);
-  if (rest.collision_probability <= kSlack * limit) return {};
+  if (rest.collision_probability <= bearable(rest)) return {};
   std::ostringstream text;
   text << std::fixed << std::setprecision(2)
        << "the rest of the plan now collides with probability " << rest.collision_probability
-       << ", and " << limit << " was wanted";
+       << ", and " << *rest.max_collision_probability << " was wanted";
   return text.str();
 }
 

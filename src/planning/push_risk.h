@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,10 +34,20 @@ class PushRisk {
   ///   not count.
   Eigen::Matrix3d startCovariance(const std::vector<int>& pushes) const;
 
+  /// Where the object is compared with the plan. Pushes go on from wherever it came to rest, so
+  /// that its deviations add up until the plan is changed, after kUncorrected pushes or so.
+  /// @param pushes  As above.
+  Eigen::Matrix3d driftedCovariance(const std::vector<int>& pushes) const;
+
   /// Probability that object or robot collides; 1 if the mean motion does. Not followed up beyond
   /// `limit`.
   double collisionProbability(int push, const Pose2& map_T_start,
                               const Eigen::Matrix3d& start_covariance, double limit = 1.0) const;
+
+  /// Probability, roughly and rather too large, that the push cannot be made: its mean motion,
+  /// begun where the object is then, collides. @pre From `map_T_start` it does not.
+  double obstructionProbability(int push, const Pose2& map_T_start,
+                                const Eigen::Matrix3d& start_covariance) const;
 
   /// Probability that the push does not end in the goal region.
   double missProbability(int push, const Pose2& map_T_start,
@@ -49,9 +60,13 @@ class PushRisk {
   double expectedReplans(int push, const GoalTolerance& tolerance) const;
 
   const RiskOptions& options() const { return options_; }
+  /// Pushes before one that anything above looks at.
+  int pushesThatCount() const { return std::max(options_.horizon - 1, kUncorrected); }
   int caseCount() const { return static_cast<int>(cases_.size()); }
 
   static constexpr int kDirections = 32;
+  static constexpr int kCoarseDirections = 16;  ///< Where a share of a tenth is near enough.
+  static constexpr int kUncorrected = 8;        ///< Pushes until a plan is changed.
 
  private:
   /// The object somewhere along a push, in the start frame.
@@ -76,14 +91,13 @@ class PushRisk {
   struct Deviations;
 
   const Motion& motion(int push) const;
+  Eigen::Matrix3d compounded(const std::vector<int>& pushes, int count) const;
   static std::vector<Stop> stopsOf(const Case& push_case);
   static Guards guardsOf(const Case& push_case);
   bool isMotionFarFromAll(int push, const Pose2& map_T_start,
                           const Eigen::Matrix3d& start_covariance) const;
   Deviations deviationsOf(int push, const Pose2& map_T_start,
                           const Eigen::Matrix3d& start_covariance) const;
-  double blockedBeyond(int push, const Pose2& map_T_start, const Deviations& deviations,
-                       const Eigen::Vector3d& direction) const;
   bool collidesAt(int push, const Pose2& map_T_start, const Deviations& deviations,
                   const Eigen::Vector3d& offset) const;
 
@@ -124,8 +138,12 @@ struct PreparationSizes {
 void assessPlan(const std::vector<Case>& cases, const PreparationSizes& sizes,
                 const RiskOptions& options, PushChecker* checker, PushPlan* plan);
 
-/// Why a plan that was begun should be given up for its risk, or nothing. It may be twice what a
-/// new plan may have: else every rest near the limit would be planned anew for the least deviation.
+/// How many pushes of a plan that was begun, from the first one on, may be made before their risk
+/// is more than twice what a new plan may have.
+/// @pre It was assessed from where the object now is.
+int bearablePushes(const PushPlan& rest);
+
+/// Why not all of them, or nothing.
 std::string riskExplanation(const PushPlan& rest);
 
 /// -log(1 - p): adds up along a plan, where the probabilities do not.

@@ -97,9 +97,10 @@ TEST_P(ChanceConstraint, tellsWhenNoPlanKeepsIt) {
 
 TEST_P(ChanceConstraint, leavesTimeForLargerProbabilities) {
   SyntheticPushOptions imprecise;
-  imprecise.position_sigma_m = 0.08;
+  imprecise.position_sigma_m = 0.05;
   PushPlannerOptions options = chance(1e-5, GetParam());
   options.max_nodes = 10000000;
+  options.risk.recovery_s = 0.0;
   PlanRequest request = requestFor(kBeforeGap, kBehindGap);
   request.deadline_s = 2.0;
   const PlanResult result =
@@ -150,6 +151,51 @@ TEST_P(ChanceConstraint, givesARestUpOnlyIfItIsMuchRiskier) {
   }
   EXPECT_TRUE(riskier);
   EXPECT_TRUE(impossible);
+}
+
+TEST_P(ChanceConstraint, goesOnUpToWhereTheRestGetsRisky) {
+  const auto planner = plannerFor(emptyRoom(), chance(0.02, GetParam()));
+  const std::vector<Case> cases = syntheticPushes(14, 7);
+  const PlanResult result = planner->plan(requestFor(kBeforeGap, kBehindGap), cases);
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.explanation;
+  ASSERT_GE(result.plan.pushes.size(), 4U);
+  // Another chair comes nearer and nearer to where the last push ends.
+  const Pose2 end = result.plan.pushes.back().map_outcome.mean;
+  const int count = static_cast<int>(result.plan.pushes.size());
+  bool is_risky = false;
+  for (double beside_m = 1.2; beside_m > 0.5 && !is_risky; beside_m -= 0.02) {
+    const auto rest = planner->continuePlan(
+        result.plan, kBeforeGap, cases,
+        {{"other", "chair", end * Pose2(0.5 * beside_m, 0.87 * beside_m, 0)}});
+    is_risky = rest.explanation.find("with probability") != std::string::npos;
+    EXPECT_TRUE(rest.valid != is_risky) << rest.explanation;
+    EXPECT_GE(rest.applicable, count - 2) << rest.explanation;
+    EXPECT_EQ(rest.applicable < count, is_risky) << rest.explanation;
+  }
+  EXPECT_TRUE(is_risky);
+}
+
+TEST_P(ChanceConstraint, keepsAwayFromWhatDeviationsWouldRunInto) {
+  // Through a gap with 15 cm on each side of the chair, or around its walls: where the limit is no
+  // matter, the gap is quicker, but after some pushes the object hardly ever stands before it.
+  WorldModel world = emptyRoom();
+  world.boxes.push_back(standing("south", 7.5, 7.5 - 1.45, 0.1, 2.0, 1.5));
+  world.boxes.push_back(standing("north", 7.5, 7.5 + 1.45, 0.1, 2.0, 1.5));
+  const std::vector<Case> cases = syntheticPushes(14, 7);
+  PlanRequest request = requestFor(Pose2(3.5, 7.5, 0.0), Pose2(11.0, 7.5, 0.0));
+  request.tolerance = {0.5, 1.0};  // Missing the goal is no matter.
+  const auto goesThrough = [&](double recovery_s) {
+    PushPlannerOptions options = chance(1.0, GetParam());
+    options.risk.recovery_s = recovery_s;
+    const PlanResult result = plannerFor(world, options)->plan(request, cases);
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << result.explanation;
+    return std::all_of(result.plan.pushes.begin(), result.plan.pushes.end(), [](const auto& push) {
+      const Pose2& end = push.map_outcome.mean;
+      return std::abs(end.x() - 7.5) > 1.0 || std::abs(end.y() - 7.5) < 1.0;
+    });
+  };
+  EXPECT_TRUE(goesThrough(0.0));
+  EXPECT_FALSE(goesThrough(200.0));
 }
 
 TEST_P(ChanceConstraint, countsRecoveriesAsTime) {

@@ -105,6 +105,46 @@ TEST_F(PushRiskTest, growsWithTheScatterOfThePushesBefore) {
   EXPECT_LT((risk_->startCovariance({4, 2, 1, 0}) - both).norm(), 1e-12) << "beyond the horizon";
 }
 
+TEST_F(PushRiskTest, comparesWithThePlanUntilItIsChanged) {
+  setUp(emptyRoom(), syntheticPushes(6, 5));
+  EXPECT_TRUE(risk_->driftedCovariance({}).isZero(0.0));
+  EXPECT_EQ(risk_->driftedCovariance({4}), risk_->startCovariance({4}));
+  PoseGaussian both{Pose2(), cases_[2].start_outcome.covariance};
+  both = compound(both, cases_[4].start_outcome);
+  EXPECT_LT((risk_->driftedCovariance({4, 2}) - both.covariance).norm(), 1e-12);
+  const std::vector<int> nine(PushRisk::kUncorrected + 1, 3);
+  const std::vector<int> eight(PushRisk::kUncorrected, 3);
+  EXPECT_EQ(risk_->driftedCovariance(nine), risk_->driftedCovariance(eight));
+  EXPECT_GT(risk_->driftedCovariance(eight).trace(), risk_->startCovariance(eight).trace());
+}
+
+TEST_F(PushRiskTest, isObstructedAsOftenAsDrawnStartsAre) {
+  setUp(furnishedRoom(), syntheticPushes(6, 5));
+  double estimated = 0.0;
+  double drawn_share = 0.0;
+  int compared = 0;
+  while (compared < 60) {
+    const Pose2 start = randomFreePose(*collisions_, *object_, &random_);
+    const int push = static_cast<int>(random_.below(cases_.size()));
+    if (!checker_->isSafe(prepared_[push], start)) continue;
+    const Eigen::Matrix3d drifted = risk_->driftedCovariance({compared % 6, 1, 4, 2});
+    const double probability = risk_->obstructionProbability(push, start, drifted);
+    if (probability == 0.0) continue;
+    constexpr int kDraws = 500;
+    const Eigen::Matrix3d root = covarianceRoot(drifted);
+    int obstructed = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      obstructed += checker_->isSafe(prepared_[push], start * expSe2(root * normal())) ? 0 : 1;
+    }
+    EXPECT_NEAR(probability, static_cast<double>(obstructed) / kDraws, 0.2) << "push " << push;
+    estimated += probability / 60.0;
+    drawn_share += static_cast<double>(obstructed) / kDraws / 60.0;
+    ++compared;
+  }
+  EXPECT_NEAR(estimated, drawn_share, 0.15 * drawn_share);
+  EXPECT_EQ(risk_->obstructionProbability(0, Pose2(4.0, 5.0, 0.0), Eigen::Matrix3d::Zero()), 0.0);
+}
+
 TEST_F(PushRiskTest, missesTheGoalAsTheScatterSays) {
   setUp(emptyRoom(), {syntheticPush(1, 0.0, 2.0, 0.0, {})});
   const GoalTolerance tolerance;
@@ -154,6 +194,19 @@ TEST(RiskOf, addsUpWhereProbabilitiesDoNot) {
   EXPECT_EQ(riskOf(0.0), 0.0);
   EXPECT_TRUE(std::isinf(riskOf(1.0)));
   EXPECT_EQ(probabilityOf(riskOf(1.0)), 1.0);
+}
+
+TEST(BearablePushes, areThoseBeforeTheRiskGetsTwiceAsLargeAsWanted) {
+  PushPlan rest;
+  rest.pushes.resize(4);
+  rest.max_collision_probability = 0.05;
+  EXPECT_EQ(bearablePushes(rest), 4);
+  rest.pushes[1].collision_probability = 0.08;
+  EXPECT_EQ(bearablePushes(rest), 4);
+  rest.pushes[2].collision_probability = 0.03;
+  EXPECT_EQ(bearablePushes(rest), 2) << "together 0.108";
+  rest.pushes[0].collision_probability = 0.11;
+  EXPECT_EQ(bearablePushes(rest), 0);
 }
 
 TEST(SafetyLevels, fallFromWhatIsWantedToTheMeanMotion) {

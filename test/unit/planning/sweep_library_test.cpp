@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "casepush/planning/push_checker.h"
 #include "world/random_motion.h"
 
 namespace casepush {
@@ -63,6 +64,26 @@ TEST_F(SweepLibraryTest, keepsTheSweepOfTheSameCaseAndMakesAnotherForAnotherOutc
   attach(&library, &cases);
   EXPECT_EQ(cases[0].sweep, before);
   EXPECT_NE(cases[1].sweep, before);
+}
+
+TEST_F(SweepLibraryTest, letsACheckerSayQuicklyWhatIsCertainlyFree) {
+  SweepLibrary library(kPlenty);
+  std::vector<PreparedCase> cases = randomCases(4);
+  attach(&library, &cases);
+  PushChecker checker(sweeps_, {object_, 1.0}, {robot_, 1.0});
+  int free = 0;
+  int doubtful = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const PreparedCase& push_case = cases[i % cases.size()];
+    const Pose2 start = randomPose(&random_, 0.5, 4.5);
+    const bool is_safe = checker.isSafe(push_case, start);
+    const bool may_collide = checker.mayCollide(push_case, start);
+    EXPECT_TRUE(is_safe || may_collide) << i;
+    free += is_safe ? 1 : 0;
+    doubtful += is_safe && may_collide ? 1 : 0;
+  }
+  EXPECT_GT(free, 100);
+  EXPECT_LT(doubtful, 150);
 }
 
 TEST_F(SweepLibraryTest, masksOfManyCasesStayWithinTheMemory) {
