@@ -1,11 +1,14 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "casepush/lab/chain_calibration.h"
 #include "casepush/lab/mean_interval.h"
 #include "casepush/lab/task_experiment.h"
 #include "command.h"
+#include "task_experiment_json.h"
 
 namespace casepush {
 namespace {
@@ -16,7 +19,7 @@ constexpr double kPlanDeadlineS = 120.0;
 struct UncertaintyArguments {
   CommonOptions common;
   TaskExperimentOptions experiment;
-  std::string planner = toString(PlannerKind::kLattice);
+  std::string planner = toString(PlannerKind::kExpRrt);
   RiskOptions risk;
   CasterModel caster_model = CasterModel::kPlanar;
 };
@@ -46,6 +49,11 @@ struct Measure {
 constexpr Measure kMeasures[] = {
     {"success", [](const PushRunResult& result) { return result.success ? 1.0 : 0.0; }},
     {"replans", [](const PushRunResult& result) { return 1.0 * result.progress.replans; }},
+    {"repairs", [](const PushRunResult& result) { return 1.0 * result.progress.repairs; }},
+    {"replans_and_repairs",
+     [](const PushRunResult& result) {
+       return 1.0 * (result.progress.replans + result.progress.repairs);
+     }},
     {"pushes", [](const PushRunResult& result) { return 1.0 * result.progress.pushes; }},
     {"replans_per_push",
      [](const PushRunResult& result) {
@@ -62,6 +70,31 @@ std::vector<double> column(const std::vector<TaskRun>& runs, const Measure& meas
   std::vector<double> values;
   for (const TaskRun& run : runs) values.push_back(measure.value(run.result));
   return values;
+}
+
+ReplanCounts causesOf(const std::vector<TaskRun>& runs) {
+  ReplanCounts counts;
+  for (const TaskRun& run : runs) {
+    for (const auto& [cause, count] : run.result.progress.replan_causes) counts[cause] += count;
+  }
+  return counts;
+}
+
+nlohmann::ordered_json calibrationJson(const std::vector<TaskRun>& runs) {
+  constexpr int kMostPushes = 8;
+  std::vector<std::vector<PushReport>> tasks;
+  for (const TaskRun& run : runs) tasks.push_back(run.result.reports);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const ChainCalibration& row : calibrateChains(tasks, kMostPushes)) {
+    json.push_back({{"pushes", row.pushes},
+                    {"chains", row.chains},
+                    {"inside_50", row.inside_50},
+                    {"inside_90", row.inside_90},
+                    {"inside_95", row.inside_95},
+                    {"position_rms_m", row.position_rms_m},
+                    {"yaw_rms_deg", row.yaw_rms_rad * 180.0 / M_PI}});
+  }
+  return json;
 }
 
 nlohmann::ordered_json intervalJson(const std::vector<double>& values, std::uint64_t seed) {
@@ -111,6 +144,8 @@ int uncertainty(const UncertaintyArguments& arguments) {
       row[measure.name] = intervalJson(values, seed);
       row[measure.name]["tasks"] = values;
     }
+    row["replan_causes"] = replanCausesJson(causesOf(runs));
+    row["calibration"] = calibrationJson(runs);
     ways[way.name] = row;
     planning_s[way.name] = 0.0;
     for (const TaskRun& run : runs) {
@@ -147,8 +182,9 @@ void addUncertaintyExperiment(CLI::App& experiment, Run& run) {
   CLI::App* command = experiment.add_subcommand(
       "uncertainty",
       "Push an object to goals in random cluttered rooms, the same tasks with plans that are safe "
-      "at sigma points, for the mean alone, and by chance constraints: re-plans, pushes, path "
-      "length, time, contacts, and their differences task by task (95 % bootstrap intervals)");
+      "at sigma points, for the mean alone, and by chance constraints: re-plans and their "
+      "causes, repairs, pushes, path length, time, contacts, and their differences task by task "
+      "(95 % bootstrap intervals)");
   addCommonOptions(*command, arguments->common);
   addObjectOption(*command, options.object);
   command->add_option("--tasks", options.tasks, "Tasks for each way")
