@@ -8,6 +8,15 @@
 #include "watches.h"
 
 namespace casepush {
+namespace {
+
+/// Of the plan's object, on average, in so many pushes [m].
+double wayM(const PushPlan& plan, int pushes) {
+  const auto all = static_cast<double>(plan.pushes.size());
+  return plan.pushes.empty() ? 0.0 : plan.lengthM() * std::min(1.0, pushes / all);
+}
+
+}  // namespace
 
 void ClearWayOptions::validate() const {
   push.validate();
@@ -43,6 +52,7 @@ struct ClearWay::Data {
   PushPlan rest;  ///< Of the obstacle's plan after that push.
   std::optional<std::vector<std::string>> first_blockers;  ///< Until the first tick.
   double looking_since_s = -1.0;
+  bool on_the_trip = false;  ///< What is being cleared could be left for later.
   int pushes = 0;
   std::string text = "looking what is in the way";
   std::string stuck;
@@ -51,7 +61,9 @@ struct ClearWay::Data {
   Tick run(const Observation& observation);
   Tick pushOn(const Observation& observation);
   bool isOnTheWay(const std::string& id) const;
-  std::vector<std::string> blockers(const Observation& observation) const;
+  std::vector<std::string> blockers(const Observation& observation, int pushes_ahead) const;
+  std::vector<std::string> nowOrOnTheTrip(const Observation& observation);
+  bool isWorthTheTrip(const std::string& id, const Observation& observation) const;
   std::optional<PlacedObject> nextBlocker(const Observation& observation);
   void decide(const Observation& observation);
   void clear(const PlacedObject& obstacle, const Observation& observation);
@@ -71,6 +83,10 @@ void ClearWay::Data::end(BehaviourStatus how, const std::string& why) {
 }
 
 void ClearWay::Data::getStuck(const std::string& id, const std::string& why) {
+  if (on_the_trip) {
+    end(BehaviourStatus::kSucceeded, "the way is clear for now; " + id + " stays: " + why);
+    return;
+  }
   stuck = id;
   end(BehaviourStatus::kFailed, id + " cannot be pushed out of the way: " + why);
 }
@@ -81,9 +97,10 @@ bool ClearWay::Data::isOnTheWay(const std::string& id) const {
 }
 
 // In the way of the last plan on the stack. That of an obstacle is made anew after each push.
-std::vector<std::string> ClearWay::Data::blockers(const Observation& observation) const {
+std::vector<std::string> ClearWay::Data::blockers(const Observation& observation,
+                                                  int pushes_ahead) const {
   std::vector<std::string> ids =
-      services.blockers(ways.back(), observation, ways.size() == 1 ? options.pushes_ahead : 1);
+      services.blockers(ways.back(), observation, ways.size() == 1 ? pushes_ahead : 1);
   const auto stays = [&](const std::string& id) {
     const ObjectState* object = usableObject(observation, id);
     return object == nullptr || isOnTheWay(id) ||
@@ -93,8 +110,31 @@ std::vector<std::string> ClearWay::Data::blockers(const Observation& observation
   return ids;
 }
 
+// The way there now, against one there and back as soon as the pushes ahead reach it.
+bool ClearWay::Data::isWorthTheTrip(const std::string& id, const Observation& observation) const {
+  const Pose2& obstacle = usableObject(observation, id)->map_T_object;
+  const Pose2& object = ways.front().object.map_T_object;
+  const double now_m = distance(observation.map_T_robot, obstacle) + distance(obstacle, object) -
+                       distance(observation.map_T_robot, object);
+  return now_m < 2.0 * wayM(ways.front(), options.pushes_ahead);
+}
+
+// Once an obstacle was pushed, the robot is among them: what else it would come back for goes too.
+std::vector<std::string> ClearWay::Data::nowOrOnTheTrip(const Observation& observation) {
+  std::vector<std::string> ids = blockers(observation, options.pushes_ahead);
+  if (ways.size() > 1 || !ids.empty()) return ids;
+  on_the_trip = pushes > 0;
+  if (!on_the_trip) return ids;
+  ids = blockers(observation, static_cast<int>(ways.front().pushes.size()));
+  ids.erase(std::remove_if(ids.begin(), ids.end(),
+                           [&](const auto& id) { return !isWorthTheTrip(id, observation); }),
+            ids.end());
+  return ids;
+}
+
 std::optional<PlacedObject> ClearWay::Data::nextBlocker(const Observation& observation) {
-  const std::vector<std::string> ids = first_blockers ? *first_blockers : blockers(observation);
+  const std::vector<std::string> ids =
+      first_blockers ? *first_blockers : nowOrOnTheTrip(observation);
   first_blockers.reset();
   if (ids.empty()) return std::nullopt;
   const ObjectState* object = usableObject(observation, ids.front());
@@ -227,7 +267,7 @@ ClearWay::ClearWay(PushPlan way, RobotModel robot, ClearWayServices services,
 ClearWay::~ClearWay() = default;
 
 bool ClearWay::isNeeded(const Observation& observation) {
-  data_->first_blockers = data_->blockers(observation);
+  data_->first_blockers = data_->blockers(observation, data_->options.pushes_ahead);
   return !data_->first_blockers->empty();
 }
 

@@ -62,9 +62,10 @@ ClearWayServices clearWayServices(const PlannerSource& planner, const std::strin
 /// One obstacle after the other: it looks who is in the way, plans pushes that bring it out of the
 /// way of the whole rest of the plan, or where there is no room for that of the next pushes, and
 /// executes them, anew from where the obstacle comes to rest if it is elsewhere than expected; then
-/// it looks again. If an obstacle cannot be pushed away because others stand around it, those are
-/// cleared first, up to a bounded depth. Succeeds once nothing is in the way; fails, naming the
-/// obstacle, if it cannot be brought away.
+/// it looks again. On the same trip it clears what the rest of the plan will hit farther on, if
+/// that is less of a way now than there and back later. If an obstacle cannot be pushed away
+/// because others stand around it, those are cleared first, up to a bounded depth. Succeeds once
+/// nothing is in the way; fails, naming the obstacle, if it cannot be brought away.
 class ClearWay : public Behaviour {
  public:
   /// @param way  Of the object to be pushed, from where it stands. @throws InputError from the

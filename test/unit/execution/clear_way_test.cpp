@@ -167,6 +167,63 @@ TEST_F(ClearWayTest, StopsWhenCancelled) {
   EXPECT_TRUE(isZero(tick.command.twist));
 }
 
+/// A second obstacle, which does not move in the fake world, in the way of the last of eight
+/// pushes.
+class ClearWayTripTest : public ClearWayTest {
+ protected:
+  ClearWayTripTest() {
+    way.pushes.resize(8);
+    for (int i = 0; i < 8; ++i) way.pushes[i].map_outcome.mean = Pose2(-2.5 + 0.5 * i, 0.0, 0.0);
+    services.blockers = [chair = services.blockers](const PushPlan& plan, const Observation& now,
+                                                    int pushes) {
+      const std::vector<std::string> ids = chair(plan, now, pushes);
+      return ids.empty() && pushes == 8 ? std::vector<std::string>{"crate_1"} : ids;
+    };
+    services.clear = searchAtOnce([this](const ClearingRequest& request) {
+      requests.push_back(request);
+      return request.obstacle.id == "crate_1" ? ClearingResult{} : sideways(request);
+    });
+  }
+
+  BehaviourStatus runBeside(ClearWay* clear, const Pose2& map_T_crate) {
+    BehaviourStatus status = BehaviourStatus::kRunning;
+    while (status == BehaviourStatus::kRunning && world.now_s < 300.0) {
+      Observation now = world.observe();
+      ObjectState crate = *now.object("chair_1");
+      crate.id = "crate_1";
+      crate.map_T_object = map_T_crate;
+      now.objects.push_back(crate);
+      const Tick tick = clear->tick(now);
+      status = tick.status;
+      world.advance(tick.command.twist);
+    }
+    return status;
+  }
+};
+
+TEST_F(ClearWayTripTest, TakesWhatItWouldComeBackForAndLeavesItWhereItIsStuck) {
+  ClearWay clear = clearWay();
+  EXPECT_EQ(runBeside(&clear, Pose2(0.5, 0.0, 0.0)), BehaviourStatus::kSucceeded);
+  EXPECT_GE(clear.pushes(), 1);
+  EXPECT_EQ(requests.back().obstacle.id, "crate_1");
+  EXPECT_EQ(clear.stuckObstacle(), "");
+  EXPECT_NE(clear.describe().find("crate_1 stays"), std::string::npos) << clear.describe();
+}
+
+TEST_F(ClearWayTripTest, LeavesWhatIsFarOffForLater) {
+  ClearWay clear = clearWay();
+  EXPECT_EQ(runBeside(&clear, Pose2(20.0, 0.0, 0.0)), BehaviourStatus::kSucceeded);
+  EXPECT_GE(clear.pushes(), 1);
+  for (const ClearingRequest& request : requests) EXPECT_EQ(request.obstacle.id, "chair_1");
+}
+
+TEST_F(ClearWayTripTest, MakesNoTripForWhatIsNotReachedYet) {
+  world.object = Pose2(0.0, 2.0, 0.0);
+  ClearWay clear = clearWay();
+  EXPECT_EQ(runBeside(&clear, Pose2(0.5, 0.0, 0.0)), BehaviourStatus::kSucceeded);
+  EXPECT_EQ(clear.pushes(), 0);
+}
+
 TEST_F(ClearWayTest, ClearsFirstWhatIsInTheWayOfTheObstacle) {
   // A second obstacle, which does not move in the fake world, keeps the search from finding
   // anything unless it may be pushed through; then it turns out to be in the way.
