@@ -12,25 +12,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Below the first one there is hardly any detour: the obstacles leave room beside them.
 constexpr double kEdges[] = {0.0, 1.25, 2.0, 3.0, 4.0, kInfinity};
 
-struct Pair {
-  double around_m;
-  double through_m;
-  double stationary_s;
-  double movable_s;
-  bool succeeded;
-
-  // Without a plan the detour is as long as can be.
-  double detour() const {
-    return std::isinf(around_m + through_m) ? kInfinity : around_m / through_m;
-  }
-};
-
-DetourBin binOf(const std::vector<Pair>& pairs, double from, double to, std::uint64_t seed) {
+DetourBin binOf(const std::vector<ObstaclePair>& pairs, double from, double to,
+                std::uint64_t seed) {
   DetourBin bin;
   bin.from = from;
   bin.to = to;
   std::vector<double> stationary_s, movable_s;
-  for (const Pair& pair : pairs) {
+  for (const ObstaclePair& pair : pairs) {
     const double detour = pair.detour();
     if (detour < from || (detour >= to && !std::isinf(to))) continue;
     if (!pair.succeeded || std::isinf(detour)) {
@@ -57,16 +45,25 @@ DetourBin binOf(const std::vector<Pair>& pairs, double from, double to, std::uin
 
 }  // namespace
 
-std::vector<DetourBin> binByDetour(const std::vector<TaskRun>& stationary,
-                                   const std::vector<TaskRun>& movable, std::uint64_t seed) {
+double ObstaclePair::detour() const {
+  return std::isinf(around_m + through_m) ? kInfinity : around_m / through_m;
+}
+
+std::vector<ObstaclePair> obstaclePairs(const std::vector<TaskRun>& stationary,
+                                        const std::vector<TaskRun>& movable) {
   CASEPUSH_CHECK(stationary.size() == movable.size(), stationary.size()
                                                           << " and " << movable.size() << " tasks");
-  std::vector<Pair> pairs;
+  std::vector<ObstaclePair> pairs;
   for (std::size_t i = 0; i < stationary.size(); ++i) {
-    pairs.push_back({shortestM(stationary[i].plans), shortestM(movable[i].plans),
-                     stationary[i].result.sim_time_s, movable[i].result.sim_time_s,
+    pairs.push_back({stationary[i].seed, shortestM(stationary[i].plans),
+                     shortestM(movable[i].plans), stationary[i].result.sim_time_s,
+                     movable[i].result.sim_time_s,
                      stationary[i].result.success && movable[i].result.success});
   }
+  return pairs;
+}
+
+std::vector<DetourBin> binByDetour(const std::vector<ObstaclePair>& pairs, std::uint64_t seed) {
   std::vector<DetourBin> bins = {binOf(pairs, 0.0, kInfinity, seed)};
   for (std::size_t k = 0; k + 1 < std::size(kEdges); ++k) {
     bins.push_back(binOf(pairs, kEdges[k], kEdges[k + 1], seed));

@@ -48,8 +48,8 @@ nlohmann::ordered_json spreadJson(const std::vector<TaskRun>& runs, const Measur
           {"sd_within_rooms", deviation(squares_within, count - rooms)}};
 }
 
-nlohmann::ordered_json edgeJson(double edge) {
-  return std::isinf(edge) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(edge);
+nlohmann::ordered_json finiteJson(double value) {
+  return std::isinf(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
 }
 
 void printSpread(const char* name, const nlohmann::ordered_json& spread) {
@@ -88,11 +88,24 @@ nlohmann::ordered_json planTimesJson(const std::vector<TaskRun>& runs) {
   return spreadJson(runs, kTime);
 }
 
+nlohmann::ordered_json pairsJson(const std::vector<ObstaclePair>& pairs) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const ObstaclePair& pair : pairs) {
+    json.push_back({{"seed", pair.seed},
+                    {"around_m", finiteJson(pair.around_m)},
+                    {"through_m", finiteJson(pair.through_m)},
+                    {"stationary_s", pair.stationary_s},
+                    {"movable_s", pair.movable_s},
+                    {"success", pair.succeeded}});
+  }
+  return json;
+}
+
 nlohmann::ordered_json detourJson(const std::vector<DetourBin>& bins) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const DetourBin& bin : bins) {
     nlohmann::ordered_json row = {{"detour_from", bin.from},
-                                  {"detour_to", edgeJson(bin.to)},
+                                  {"detour_to", finiteJson(bin.to)},
                                   {"pairs", bin.pairs},
                                   {"failed_pairs", bin.failed}};
     if (bin.pairs > 0) {

@@ -14,6 +14,9 @@ nlohmann::ordered_json planTrialsJson(const std::vector<TaskRun>& runs);
 /// The same of their CPU time [s].
 nlohmann::ordered_json planTimesJson(const std::vector<TaskRun>& runs);
 
+/// One object for each pair.
+nlohmann::ordered_json pairsJson(const std::vector<ObstaclePair>& pairs);
+
 /// One object for each bin.
 nlohmann::ordered_json detourJson(const std::vector<DetourBin>& bins);
 

@@ -131,10 +131,12 @@ int obstacles(const TaskExperimentArguments& arguments) {
   nlohmann::ordered_json detours = nlohmann::ordered_json::array();
   std::vector<std::vector<DetourBin>> bins;
   for (std::size_t i = 0; !arguments.plans_only && i < arguments.caster_models.size(); ++i) {
-    bins.push_back(binByDetour(results.runs[2 * i], results.runs[2 * i + 1],
-                               static_cast<std::uint64_t>(arguments.common.seed)));
-    detours.push_back(
-        {{"caster_model", arguments.caster_models[i]}, {"bins", detourJson(bins.back())}});
+    const std::vector<ObstaclePair> pairs =
+        obstaclePairs(results.runs[2 * i], results.runs[2 * i + 1]);
+    bins.push_back(binByDetour(pairs, static_cast<std::uint64_t>(arguments.common.seed)));
+    detours.push_back({{"caster_model", arguments.caster_models[i]},
+                       {"bins", detourJson(bins.back())},
+                       {"pairs", pairsJson(pairs)}});
   }
   if (arguments.common.json) {
     printJson(arguments, results, watch, {{"stationary_over_movable", detours}});

@@ -24,7 +24,7 @@ TEST(BinByDetour, SortsPairsByTheShortestPlansAndComparesTheirTimes) {
                                            task(25.0, 400.0)};
   const std::vector<TaskRun> movable = {task(10.0, 100.0), task(5.0, 100.0), task(5.0, 130.0),
                                         task(5.0, 100.0)};
-  const std::vector<DetourBin> bins = binByDetour(stationary, movable, 1);
+  const std::vector<DetourBin> bins = binByDetour(obstaclePairs(stationary, movable), 1);
   ASSERT_EQ(bins.size(), 6U);
   const DetourBin& all = bins[0];
   EXPECT_EQ(all.pairs, 4);
@@ -49,8 +49,9 @@ TEST(BinByDetour, CountsPairsThatFailedWithoutTheirTimes) {
   TaskRun without_plan = task(5.0, 300.0);
   without_plan.plans = {PlanTrial{}};
   const std::vector<DetourBin> bins =
-      binByDetour({task(10.0, 100.0, false), task(10.0, 180.0), without_plan},
-                  {task(5.0, 1.0), task(5.0, 90.0), task(5.0, 90.0)}, 1);
+      binByDetour(obstaclePairs({task(10.0, 100.0, false), task(10.0, 180.0), without_plan},
+                                {task(5.0, 1.0), task(5.0, 90.0), task(5.0, 90.0)}),
+                  1);
   EXPECT_EQ(bins[0].pairs, 1);
   EXPECT_EQ(bins[0].failed, 2);
   EXPECT_NEAR(bins[0].ratio.mean, 2.0, 1e-12);
