@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "cut_off.h"
 #include "origin_distance.h"
 
 namespace casepush {
@@ -117,6 +118,11 @@ ChainPlan planChain(const SearchProblem& problem, PushChecker* checker, const Sa
     return late;
   }
   ChainPlan made = planChain(problem, *set, checker, safety, clock);
+  if (made.end == PlanSearch::End::kNodeLimit || made.end == PlanSearch::End::kExhausted) {
+    CutOff cut_off = findCutOff(problem, checker, set->cases, clock);
+    if (cut_off.is_certain) made.end = PlanSearch::End::kCutOff;
+    made.narrow_place = std::move(cut_off.where);
+  }
   problem.disposal->take(std::move(set));  // There may be thousands of cases.
   return made;
 }

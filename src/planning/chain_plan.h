@@ -13,6 +13,7 @@ struct ChainPlan {
   double bound = 0.0;  ///< See ChainResult.
   int nodes = 0;
   std::string approach_problem;
+  std::string narrow_place;  ///< As PlanSearch::narrowPlace().
 };
 
 /// Searches with the lattice or an OMPL planner until the robot can get to every push of a chain.

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cut_off.h"
 #include "dead_end_check.h"
-#include "origin_distance.h"
 #include "se2_state.h"
 
 namespace casepush {
@@ -209,9 +209,9 @@ PlanSearch::End PlanSearch::run() {
   return solution_ ? End::kFound : endWithout();
 }
 
-PlanSearch::End PlanSearch::endWithout() const {
+PlanSearch::End PlanSearch::endWithout() {
   if (isLate()) return End::kStopped;
-  if (!mayBeMissing() && isCutOff()) return End::kCutOff;
+  if (isCutOff()) return End::kCutOff;
   return rrt_.tree().size() >= problem_.options.max_nodes ? End::kNodeLimit : End::kExhausted;
 }
 
@@ -222,7 +222,7 @@ bool PlanSearch::findFirst() {
   const int quick = rrt_.extensionCount() + kQuick;
   rrt_.solve(ob::PlannerTerminationCondition(
       [this, quick] { return rrt_.extensionCount() >= quick || isOver(safety_.deadline_share); }));
-  if (!rrt_.solutions().empty() || solution_ || isLate() || mayBeMissing() || isCutOff()) {
+  if (!rrt_.solutions().empty() || solution_ || isLate() || isCutOff() || mayBeMissing()) {
     return !rrt_.solutions().empty();
   }
   rrt_.solve(ob::PlannerTerminationCondition([this] { return isOver(safety_.deadline_share); }));
@@ -241,11 +241,13 @@ bool PlanSearch::isOver(double share) const {
   return clock_.isOver(share);
 }
 
-bool PlanSearch::isCutOff() const {
-  const OriginDistance ways(checker_->collisions().columns(), problem_.object.solid,
-                            problem_.request.map_T_goal.position(),
-                            problem_.request.tolerance.position_m, clock_.patience());
-  return !std::isfinite(ways.at(problem_.request.object.map_T_object.position()));
+bool PlanSearch::isCutOff() {
+  if (!is_cut_off_) {
+    CutOff cut_off = findCutOff(problem_, checker_, rrt_.cases(), clock_);
+    is_cut_off_ = cut_off.is_certain;
+    narrow_place_ = std::move(cut_off.where);
+  }
+  return *is_cut_off_;
 }
 
 void PlanSearch::improve() {

@@ -163,12 +163,15 @@ class PlanSearch {
   bool hasRejected() const { return has_rejected_; }
   /// Why the robot could not get to a push of a rejected plan; empty if none was rejected.
   const std::string& approachProblem() const { return approaches_.problem(); }
+  /// Where the way of the object is too narrow, if run() returned kCutOff; empty if that is not
+  /// known.
+  const std::string& narrowPlace() const { return narrow_place_; }
 
  private:
   CanApproach simpleApproach();
   bool findFirst();
   bool mayBeMissing() const;
-  bool isCutOff() const;
+  bool isCutOff();
   bool isOver(double share) const;  ///< Reports, too.
   bool isLate() const { return clock_.isOver(safety_.deadline_share); }
   void improve();
@@ -179,7 +182,7 @@ class PlanSearch {
   /// Where in the chain the object may get stuck first; -1 if nowhere.
   int findDeadEnd(const std::vector<int>& chain);
   Solution solutionOf(const std::vector<int>& chain, int dead_end) const;
-  End endWithout() const;
+  End endWithout();
 
   const SearchProblem& problem_;
   const SearchClock& clock_;
@@ -196,6 +199,8 @@ class PlanSearch {
   std::unique_ptr<DeadEndCheck> dead_ends_;  // nothing where plans are not improved
   std::vector<int> open_ended_;              // nodes in which the object does not get stuck
   int dead_end_count_ = 0;
+  std::optional<bool> is_cut_off_;  // nothing until it was looked for
+  std::string narrow_place_;
   std::int64_t improvement_end_ = 0;  // extensions, from the first solution on
   std::optional<Solution> solution_;
 };

@@ -70,16 +70,15 @@ struct PushPlanner::Data {
   /// A search's problem; `request`, `cases`, `obstacles` and this must outlive it.
   SearchProblem problem(const PlanRequest& request, const std::vector<const Case*>& cases,
                         const std::vector<PlacedSolid>& obstacles) const;
-  PlanResult search(const PlanRequest& request, const std::vector<const Case*>& cases,
-                    const SearchClock& clock) const;
-
   /// What came of one level of safety.
   struct Attempt {
     PlanResult result;
-    bool is_worth_relaxing = false;  ///< A lesser level may have a plan.
+    bool is_worth_relaxing = false;  ///< A lesser level may have a plan, or a finer search.
   };
-  PlanResult searchLevels(const SearchProblem& problem, PushChecker* push_checker, GoalGuide* guide,
-                          const SearchClock& clock) const;
+  Attempt search(const PlanRequest& request, const std::vector<const Case*>& cases,
+                 const SearchClock& clock) const;
+  Attempt searchLevels(const SearchProblem& problem, PushChecker* push_checker, GoalGuide* guide,
+                       const SearchClock& clock) const;
   Attempt searchLevel(const SearchProblem& problem, PushChecker* push_checker,
                       const SafetyLevel& safety, GoalGuide* guide, const SearchClock& clock) const;
   PlanResult searchFinestLast(const PlanRequest& request, const std::vector<const Case*>& cases,

@@ -55,6 +55,10 @@ void PushChecker::tolerateStart(const Pose2& map_T_start) {
   }
 }
 
+double PushChecker::lenientRange() const {
+  return tolerated_depth_m_ > 0.0 ? kToleranceRange_m : 0.0;
+}
+
 bool PushChecker::isFree(const Pose2& map_T_object) {
   return !collides(object_, map_T_object) || isTolerated(map_T_object);
 }

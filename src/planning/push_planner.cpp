@@ -11,6 +11,7 @@
 #include "casepush/common/input_error.h"
 #include "casepush/model/plan_scatter.h"
 #include "chain_plan.h"
+#include "cut_off.h"
 #include "plan_request.h"
 #include "plan_search.h"
 #include "planner_data.h"
@@ -59,9 +60,14 @@ struct Outcome {
   PlanSearch::Solution solution;
   int nodes = 0;
   std::string approach_problem;
+  std::string narrow_place;
 };
 
 std::string unreachableText(const Outcome& outcome, int max_nodes) {
+  if (outcome.end == PlanSearch::End::kCutOff && !outcome.narrow_place.empty()) {
+    return "the goal region cannot be reached: " + outcome.narrow_place +
+           "; clear some space or move the goal";
+  }
   if (outcome.end == PlanSearch::End::kCutOff) {
     return "the goal region cannot be reached: walls or furniture block every way of the object to "
            "it; clear some space or move the goal";
@@ -92,7 +98,8 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
     return {made.end,
             {std::move(made.plan), made.expected_s, 0},
             made.nodes,
-            std::move(made.approach_problem)};
+            std::move(made.approach_problem),
+            std::move(made.narrow_place)};
   }
   outcome.end = PlanSearch::End::kStopped;
   std::shared_ptr<const CaseSet> cases = caseSetFor(problem, *checker, safety.zeta, clock);
@@ -105,6 +112,7 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
     addTree(search.rrt(), result);
     outcome.nodes = search.rrt().tree().size();
     outcome.approach_problem = search.approachProblem();
+    outcome.narrow_place = search.narrowPlace();
     if (outcome.end == PlanSearch::End::kFound) {
       outcome.solution = search.solution();
     }
@@ -185,11 +193,11 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
   return result;
 }
 
-PlanResult PushPlanner::Data::search(const PlanRequest& request,
-                                     const std::vector<const Case*>& cases,
-                                     const SearchClock& clock) const {
+PushPlanner::Data::Attempt PushPlanner::Data::search(const PlanRequest& request,
+                                                     const std::vector<const Case*>& cases,
+                                                     const SearchClock& clock) const {
   const ObjectRoom* room = rooms->get(request.object.model, clock.patience());
-  if (room == nullptr) return stopped(request, clock);
+  if (room == nullptr) return {stopped(request, clock)};
   const std::vector<PlacedSolid> obstacles = placeObstacles(request.obstacles, objects);
   const Footprints& own = footprints.at(request.object.model);
   const auto scene = scenes->get(request.object.model, request.obstacles, [&] {
@@ -197,7 +205,7 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
   });
   PushChecker push_checker = pushChecker(request.object.model, scene->sweeps);
   if (const auto problem = checkStartAndGoal(request, push_checker.collisions(), *own.exact)) {
-    return failed(problem->status, problem->explanation);
+    return {failed(problem->status, problem->explanation)};
   }
   push_checker.tolerateStart(request.object.map_T_object);
   const SearchProblem problem = this->problem(request, cases, obstacles);
@@ -206,15 +214,18 @@ PlanResult PushPlanner::Data::search(const PlanRequest& request,
   if (!guide.reachesStart()) {
     Outcome cut_off;
     cut_off.end = PlanSearch::End::kCutOff;
-    return failed(PlanStatus::kUnreachable, unreachableText(cut_off, options.max_nodes));
+    cut_off.narrow_place = placeTooNarrow(problem, push_checker.collisions(), clock);
+    return {failed(PlanStatus::kUnreachable, unreachableText(cut_off, options.max_nodes))};
   }
   return searchLevels(problem, &push_checker, &guide, clock);
 }
 
 // What is not found with the least safety is not found with more. So that is looked for second:
 // where there is no plan, two searches tell.
-PlanResult PushPlanner::Data::searchLevels(const SearchProblem& problem, PushChecker* push_checker,
-                                           GoalGuide* guide, const SearchClock& clock) const {
+PushPlanner::Data::Attempt PushPlanner::Data::searchLevels(const SearchProblem& problem,
+                                                           PushChecker* push_checker,
+                                                           GoalGuide* guide,
+                                                           const SearchClock& clock) const {
   const std::vector<SafetyLevel> levels = safetyLevels(options.risk, options.zeta);
   int nodes = 0;
   const auto search = [&](const SafetyLevel& safety) {
@@ -224,20 +235,20 @@ PlanResult PushPlanner::Data::searchLevels(const SearchProblem& problem, PushChe
     return attempt;
   };
   Attempt attempt = search(levels.front());
-  std::optional<PlanResult> probe;
+  std::optional<Attempt> probe;
   if (attempt.is_worth_relaxing && levels.size() > 2 && options.planner != PlannerKind::kLattice &&
       !isOmpl(options.planner)) {
     SafetyLevel least = levels.back();
     least.first_plan_will_do = true;
-    probe = search(least).result;
-    if (probe->status != PlanStatus::kSolved) return *probe;
+    probe = search(least);
+    if (probe->result.status != PlanStatus::kSolved) return *probe;
   }
   for (std::size_t i = 1; i < levels.size() && attempt.is_worth_relaxing; ++i) {
     attempt = search(levels[i]);
   }
   const bool says_more = attempt.result.status == PlanStatus::kSolved ||
                          attempt.result.status == PlanStatus::kCancelled;
-  return probe && !says_more ? *probe : attempt.result;
+  return probe && !says_more ? *probe : attempt;
 }
 
 PushPlanner::Data::Attempt PushPlanner::Data::searchLevel(const SearchProblem& problem,
@@ -282,19 +293,20 @@ PlanResult PushPlanner::Data::searchFinestLast(const PlanRequest& request,
   std::copy_if(cases.begin(), cases.end(), std::back_inserter(whole),
                [](const Case* push_case) { return push_case->id >= 0; });
   if (whole.empty()) whole = cases;
-  PlanResult result = search(request, whole, clock);
-  const auto is_worth_another = [&](const PlanResult& last) {
-    return last.status == PlanStatus::kUnreachable && options.relax && !clock.isOver();
-  };
-  if (!is_worth_another(result)) return result;
+  const Attempt attempt = search(request, whole, clock);
+  const PlanResult& result = attempt.result;
+  const bool is_unreachable =
+      result.status == PlanStatus::kUnreachable && options.relax && !clock.isOver();
+  if (!is_unreachable) return result;
   Data finer = *this;
   PlanResult other = result;
-  if (isMetricExpRrt(options) && result.nodes < options.max_nodes) {
+  if (attempt.is_worth_relaxing && isMetricExpRrt(options) && result.nodes < options.max_nodes) {
     finer.options.spacing_m *= kFiner;
-    other = finer.search(request, whole, clock);
+    other = finer.search(request, whole, clock).result;
   }
-  if (is_worth_another(other) && whole.size() < cases.size()) {
-    other = finer.search(request, cases, clock);
+  // Where the others are cut off, these may still have larger steps.
+  if (other.status == PlanStatus::kUnreachable && whole.size() < cases.size() && !clock.isOver()) {
+    other = finer.search(request, cases, clock).result;
   }
   const bool says_more =
       other.status == PlanStatus::kSolved || other.status == PlanStatus::kCancelled;

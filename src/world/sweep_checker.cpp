@@ -214,6 +214,13 @@ bool SweepChecker::collides(const Sweep& sweep, const Pose2& map_T_start) const 
          (answer == MaskAnswer::kMay && touchesHitCells(sweep, map_T_start, at));
 }
 
+bool SweepChecker::certainlyCollides(const Sweep& sweep, const Pose2& map_T_start) const {
+  Place at;
+  return place(sweep, map_T_start, &at) &&
+         testMask(*at.mask, around_->occupied.image(at.quarter), &map_->filled.image(at.quarter),
+                  at.first.x, at.first.y) == MaskAnswer::kCertain;
+}
+
 // Cells of a tile's row that are occupied in a class in which they may be covered.
 std::uint64_t SweepChecker::hitsOf(const Place& place, int tile, int row) const {
   const SweepMask& mask = *place.mask;

@@ -60,10 +60,16 @@ class PushChecker {
   bool isRobotFarFromAll(const Eigen::Vector2d& position_m, double deviation_m);
 
   const CollisionChecker& collisions() const { return checker_; }
+  /// nullptr if it was made without.
+  const SweepChecker* sweeps() const { return sweeps_ ? &*sweeps_ : nullptr; }
+  const Body& object() const { return object_; }
+  /// Of everything around, made when it is first asked for.
+  const ClearanceField& clearance();
+  /// So near to its start the object may overlap its surroundings; 0: nowhere [m].
+  double lenientRange() const;
   int checkCount() const { return check_count_; }  ///< Poses and sweeps tested so far.
 
  private:
-  const ClearanceField& clearance();
   bool isTolerated(const Pose2& map_T_object) const;
   bool mayBeTolerated(const Sweep& sweep, const Pose2& map_T_object) const;
   bool objectCollidesOnItsWay(const PreparedCase& push_case, const Pose2& map_T_start);

@@ -50,7 +50,11 @@ class SweepChecker {
   /// Exactly. A pose that is not finite collides.
   bool collides(const Sweep& sweep, const Pose2& map_T_start) const;
 
-  /// The same, by testing one pose after the other.
+  /// True only if the motion collides with the map, and so do all that begin in the same of its
+  /// cells with a heading in the same bin (Sweep::heading()). Says no where it does not know.
+  bool certainlyCollides(const Sweep& sweep, const Pose2& map_T_start) const;
+
+  /// The same as collides(), by testing one pose after the other.
   bool collidesPoseByPose(const Sweep& sweep, const Pose2& map_T_start) const;
 
   const CollisionChecker& collisions() const { return checker_; }
