@@ -19,16 +19,6 @@ std::tuple<int, double, std::string> keyOf(const PushContext& context) {
   return {context.noticed, context.load_kg.value_or(-1.0), context.floor};
 }
 
-std::string describe(const PushContext& context) {
-  if (context.noticed > 0) {
-    return "noticed change " + std::to_string(context.noticed);
-  }
-  std::string text = "as told: ";
-  text += context.load_kg ? std::to_string(static_cast<int>(std::lround(*context.load_kg))) + " kg"
-                          : "load unknown";
-  return context.floor.empty() ? text : text + ", floor " + context.floor;
-}
-
 OutcomeStatistics statistics(const Case& push_case) {
   return {push_case.start_outcome, push_case.effective_count};
 }
@@ -45,6 +35,16 @@ bool mayBe(const PushContext& context, const PushContext& told) {
 }
 
 }  // namespace
+
+std::string describe(const PushContext& context) {
+  if (context.noticed > 0) {
+    return "noticed change " + std::to_string(context.noticed);
+  }
+  std::string text = "as told: ";
+  text += context.load_kg ? std::to_string(static_cast<int>(std::lround(*context.load_kg))) + " kg"
+                          : "load unknown";
+  return context.floor.empty() ? text : text + ", floor " + context.floor;
+}
 
 AdaptingCases::AdaptingCases(CaseBase* base, PushContext told, const AdaptingOptions& options)
     : base_(base), told_(std::move(told)), options_(options) {
@@ -104,16 +104,14 @@ std::string AdaptingCases::learnFrom(const PushReport& report) {
   Circumstances& now = of(object);
   const ObservedPush push = observedPush(report, now.context);
   const std::vector<Case> known = base_->cases(object);
-  if (options_.notice) {
-    compare(known, report.case_id, push.start_T_object, &now);
-  }
-  const auto [id, is_new] = memberFor(report.case_id, known, now.context);
-  base_->adapt(id, push, report.test.p_value, options_.adaptation, options_.floor);
+  const Case member = memberFor(report.case_id, known, now.context);
+  base_->adapt(member.id, push, report.test.p_value, options_.adaptation, options_.floor);
   if (!options_.notice) {
     return {};
   }
-  now.recent.push_back({id, push});
-  is_new ? now.detector.addNothing() : now.detector.add(report.test.p_value);
+  now.recent.push_back({member.id, push, takesOverTrajectories(member, push)});
+  compare(known, report.case_id, push.start_T_object, &now);
+  member.observation_count == 0 ? now.detector.addNothing() : now.detector.add(report.test.p_value);
   return judge(object, &now);
 }
 
@@ -125,6 +123,7 @@ void AdaptingCases::compare(const std::vector<Case>& known, std::int64_t id,
   std::map<ContextKey, const Case*> family;
   const Case* expected = nullptr;
   for (const Case& push_case : known) {
+    if (push_case.observation_count == 0) continue;
     const bool is_present = isIn(push_case.context, now->context);
     const bool is_of_family = family_of.at(push_case.id) == family_of.at(id);
     if (is_present && is_of_family) {
@@ -168,49 +167,59 @@ std::string AdaptingCases::judge(const std::string& object, Circumstances* now) 
     ++changed.noticed;
     return change(object, changed, now->detector.pushesSinceChange(), now);
   }
+  suspicious = std::min(suspicious, static_cast<int>(now->recent.size()));
   now->recent.erase(now->recent.begin(), now->recent.end() - suspicious);
   return {};
 }
 
-/// The case of a family that is to learn in a context, and whether it was made for that now.
-/// @param known  All cases of the object as they are stored now.
-std::pair<std::int64_t, bool> AdaptingCases::memberFor(std::int64_t id,
-                                                       const std::vector<Case>& known,
-                                                       const PushContext& context) {
-  if (context == PushContext{}) return {id, false};
-  ContextView view(known, context);
-  if (const Case* member = view.member(id)) return {member->id, false};
+/// The case of a family that is to learn in a context, as it is before; made for that if need be.
+Case AdaptingCases::memberFor(std::int64_t id, const std::vector<Case>& known,
+                              const PushContext& context) {
   const Case* const original = findCase(known, id);
   if (original == nullptr) throw InputError("case " + std::to_string(id), "it no longer exists");
+  if (context == PushContext{}) return *original;
+  ContextView view(known, context);
+  if (const Case* member = view.member(id)) return *member;
   Case copy = view.expected(*original);
   copy.source_id = id;
   copy.observation_count = 0;  // None in this context.
   copy.context = context;
-  return {base_->add(copy, std::nullopt, options_.floor), true};
+  copy.id = base_->add(copy, std::nullopt, options_.floor);
+  return copy;
 }
 
-// Another program may have written to the base: only the very observations are taken back.
-void AdaptingCases::takeBack(const std::vector<Testimony>& pushes) {
+/// Takes pushes back from their cases, and returns those that are to be learnt anew. Another
+/// program may have written to the base: only the very observations are taken back, and pushes of
+/// cases that are gone are left out, as are those that made their cases what they are.
+std::vector<AdaptingCases::Testimony> AdaptingCases::takeBack(const std::string& object,
+                                                              std::vector<Testimony> pushes) {
+  const std::vector<Case> known = base_->cases(object);
+  const auto stays = [&known](const Testimony& testimony) {
+    return testimony.made_the_case || findCase(known, testimony.case_id) == nullptr;
+  };
+  pushes.erase(std::remove_if(pushes.begin(), pushes.end(), stays), pushes.end());
   for (auto it = pushes.rbegin(); it != pushes.rend(); ++it) {
     const std::vector<Pose2> observations = base_->observations(it->case_id);
     if (!observations.empty() && isSame(observations.back(), it->push.start_T_object)) {
       base_->undo(it->case_id);
     }
   }
+  return pushes;
 }
 
 std::string AdaptingCases::change(const std::string& object, PushContext context, int pushes,
                                   Circumstances* now) {
-  const std::vector<Testimony> since(now->recent.end() - pushes, now->recent.end());
-  takeBack(since);
+  pushes = std::min(pushes, static_cast<int>(now->recent.size()));
+  const std::vector<Testimony> since =
+      takeBack(object, {now->recent.end() - pushes, now->recent.end()});
   const PushContext before = now->context;
   *now = Circumstances{now->told, context, ChangeDetector(options_.change), {}, {}};
   for (Testimony testimony : since) {
-    const std::int64_t id = memberFor(testimony.case_id, base_->cases(object), context).first;
+    const Case member = memberFor(testimony.case_id, base_->cases(object), context);
     testimony.push.context = context;
     const PredictionTest test =
-        testPrediction(statistics(base_->get(id)), testimony.push.start_T_object, kAlpha);
-    base_->adapt(id, testimony.push, test.p_value, options_.adaptation, options_.floor);
+        testPrediction(statistics(member), testimony.push.start_T_object, kAlpha);
+    base_->adapt(member.id, testimony.push, test.p_value, options_.adaptation, options_.floor);
   }
   return object + " no longer moves as its cases say (" + describe(before) +
          "): another load or floor? From its last " + std::to_string(pushes) +

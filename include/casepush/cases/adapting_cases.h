@@ -13,6 +13,9 @@
 
 namespace casepush {
 
+/// For a person, e.g. "noticed change 1" or "as told: 15 kg, floor carpet".
+std::string describe(const PushContext& context);
+
 struct AdaptingOptions {
   AdaptationOptions adaptation;
   CovarianceFloor floor;
@@ -46,7 +49,7 @@ class AdaptingCases {
   /// Adapts the case that was pushed.
   /// @return A line for a person if the circumstances turn out to have changed; else empty.
   /// @pre report.case_id > 0, and the report is of a push that can be learnt from.
-  /// @throws InputError as CaseBase::adapt.
+  /// @throws InputError as CaseBase::adapt; the push counts for nothing then.
   std::string learnFrom(const PushReport& report);
 
   /// Present circumstances of an object, by the name of its model.
@@ -60,6 +63,7 @@ class AdaptingCases {
   struct Testimony {
     std::int64_t case_id;
     ObservedPush push;
+    bool made_the_case;  ///< It can not be taken back: the case took over its trajectories.
   };
   struct Circumstances {
     PushContext told;
@@ -70,12 +74,11 @@ class AdaptingCases {
   };
 
   Circumstances& of(const std::string& object);
-  std::pair<std::int64_t, bool> memberFor(std::int64_t id, const std::vector<Case>& known,
-                                          const PushContext& context);
+  Case memberFor(std::int64_t id, const std::vector<Case>& known, const PushContext& context);
   void compare(const std::vector<Case>& known, std::int64_t id, const Pose2& start_T_object,
                Circumstances* now) const;
   std::string judge(const std::string& object, Circumstances* now);
-  void takeBack(const std::vector<Testimony>& pushes);
+  std::vector<Testimony> takeBack(const std::string& object, std::vector<Testimony> pushes);
   std::string change(const std::string& object, PushContext context, int pushes,
                      Circumstances* now);
 

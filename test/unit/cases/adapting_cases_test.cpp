@@ -22,8 +22,9 @@ std::vector<Case> knownCases() {
 
 class AdaptingCasesTest : public ::testing::Test {
  protected:
-  /// Pushes case `number` (0 to 3) of the present ones; it ends at `share` of the way it used to.
-  std::string push(int number, double share) {
+  /// Of a push of case `number` (0 to 3) of the present ones that ends at `share` of the way it
+  /// used to.
+  PushReport reportOf(int number, double share) {
     const Case predicted = present(number);
     const Case original = known_[number];
     const Pose2& mean = original.start_outcome.mean;
@@ -38,7 +39,18 @@ class AdaptingCasesTest : public ::testing::Test {
     report.recorded.steps.back().start_T_object = report.map_T_end;
     report.test = testPrediction({predicted.start_outcome, predicted.effective_count},
                                  observedPush(report).start_T_object, 0.01);
-    return adapting_.learnFrom(report);
+    return report;
+  }
+  std::string push(int number, double share) {
+    return adapting_.learnFrom(reportOf(number, share));
+  }
+  /// Makes case 0 one that was proposed after another object and never pushed.
+  void proposeFirstCase() {
+    known_[0].origin = CaseOrigin::kTransferred;
+    known_[0].observation_count = 0;
+    known_[0].effective_count = 0.5;
+    known_[0].start_outcome.covariance = Eigen::Vector3d(1e-2, 1e-2, 4e-2).asDiagonal();
+    base_ = CaseBase(known_, {});
   }
   /// The case that is pushed instead of one of those known, in the present circumstances.
   Case present(int number) {
@@ -153,6 +165,76 @@ TEST_F(AdaptingCasesTest, forgetsWhatWasNoticedWhenTold) {
   push(0, 0.5);
   EXPECT_EQ(adapting_.cases().size(), 4u);
   EXPECT_EQ(base_.cases().back().context, told);
+}
+
+/// What a transferred case says before its first push is a guess.
+TEST_F(AdaptingCasesTest, noticesNothingByTheFirstPushOfATransferredCase) {
+  proposeFirstCase();
+  PushReport report = reportOf(0, 0.3);
+  report.test.p_value = 1e-6;
+  EXPECT_EQ(adapting_.learnFrom(report), "");
+  EXPECT_EQ(base_.get(10).observation_count, 1);
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(push(1 + i % 3, 1.0), "");
+}
+
+/// Its first push made a transferred case what it is, which can not be taken back.
+TEST_F(AdaptingCasesTest, noticesAChangeDuringWhichATransferredCaseWasPushedFirst) {
+  proposeFirstCase();
+  AdaptingOptions options;
+  options.change.alarm = 1000.0;  // So that it takes two pushes at least.
+  adapting_ = AdaptingCases(&base_, {}, options);
+  EXPECT_EQ(push(1, 0.5), "");
+  EXPECT_EQ(push(0, 0.5), "");
+  std::string text;
+  for (int i = 0; i < 3 && text.empty(); ++i) text = push(2, 0.5);
+  EXPECT_NE(text.find("noticed change 1"), std::string::npos) << text;
+  EXPECT_EQ(base_.get(10).observation_count, 1);
+  EXPECT_EQ(base_.get(11).observation_count, 20);
+  EXPECT_EQ(base_.get(12).observation_count, 20);
+  EXPECT_EQ(base_.count(), 6);  // Copies of the two that could be taken back.
+  EXPECT_EQ(push(0, 0.5), "");
+  EXPECT_EQ(base_.count(), 7);
+}
+
+TEST_F(AdaptingCasesTest, noticesAChangeAlthoughACasePushedSinceWasRemoved) {
+  AdaptingOptions options;
+  options.change.alarm = 1000.0;
+  adapting_ = AdaptingCases(&base_, {}, options);
+  EXPECT_EQ(push(0, 0.5), "");
+  base_.remove(10);
+  std::string text;
+  for (int i = 0; i < 3 && text.empty(); ++i) text = push(1, 0.5);
+  EXPECT_NE(text.find("noticed change 1"), std::string::npos) << text;
+  EXPECT_EQ(base_.get(11).observation_count, 20);
+}
+
+TEST_F(AdaptingCasesTest, doesNotCountPushesThatCouldNotBeStored) {
+  pushUntilNoticed(0.5, 4);
+  for (int i = 0; i < 12; ++i) push(i % 4, 0.5);
+  for (int i = 0; i < 20; ++i) {
+    PushReport report = reportOf(i % 4, 1.0);
+    report.test.p_value = 2.0;
+    EXPECT_NE(inputErrorOf([&] { adapting_.learnFrom(report); }), "");
+  }
+  EXPECT_EQ(adapting_.context("chair").noticed, 1);
+  EXPECT_EQ(push(0, 0.5), "");
+  EXPECT_NE(pushUntilNoticed(1.0, 12), "");
+  EXPECT_EQ(adapting_.context("chair").noticed, 0);
+}
+
+/// A copy that could not learn, because the disk was full, is no more than a guess.
+TEST_F(AdaptingCasesTest, asksNoCopyThatNeverLearnt) {
+  PushContext told;
+  told.load_kg = 15.0;
+  adapting_.tell("chair", told);
+  PushReport report = reportOf(0, 0.5);
+  report.test.p_value = 2.0;
+  EXPECT_NE(inputErrorOf([&] { adapting_.learnFrom(report); }), "");
+  ASSERT_EQ(base_.count(), 5);
+  report = reportOf(0, 0.5);
+  report.test.p_value = 1e-6;
+  EXPECT_EQ(adapting_.learnFrom(report), "");
+  EXPECT_EQ(adapting_.context("chair"), told);
 }
 
 TEST_F(AdaptingCasesTest, noticesNothingUnlessWanted) {
