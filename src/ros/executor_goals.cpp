@@ -1,4 +1,6 @@
 // What ExecutorNode makes of the goals that it is sent.
+#include <std_msgs/Empty.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -161,6 +163,8 @@ bool ExecutorNode::onStop(std_srvs::Trigger::Request& /*request*/,
     end(ActivityEnd::kStopped, "stopped by the service stop");
   }
   command_.publish(geometry_msgs::Twist());
+  // Whoever sends goal after goal may be between two of them.
+  stops_.publish(std_msgs::Empty());
   return true;
 }
 

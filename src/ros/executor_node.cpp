@@ -1,6 +1,7 @@
 #include "casepush/ros/executor_node.h"
 
 #include <geometry_msgs/Twist.h>
+#include <std_msgs/Empty.h>
 #include <tf2/exceptions.h>
 
 #include <algorithm>
@@ -63,6 +64,7 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
       handle_.advertise<TaskSummary>(names::kTaskSummaries.name, names::kTaskSummaries.queue_size);
   state_ = handle_.advertise<ExecutorState>(names::kExecutorState.name,
                                             names::kExecutorState.queue_size, true);
+  stops_ = handle_.advertise<std_msgs::Empty>(names::kStops.name, names::kStops.queue_size);
   cases_subscriber_ =
       handle_.subscribe(names::kCases.name, names::kCases.queue_size, &ExecutorNode::onCases, this);
   objects_subscriber_ =

@@ -43,7 +43,7 @@ std::int64_t LearnerNode::addDemonstrated(const Case& push_case) {
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
     Case demonstrated = push_case;
-    demonstrated.context = parameters_.context;
+    demonstrated.context = adapting_.context(push_case.object);
     id = base_.add(demonstrated, std::nullopt, parameters_.adapting.floor);
   }
   publishCases();

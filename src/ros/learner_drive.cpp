@@ -53,8 +53,19 @@ void LearnerNode::onOctomap(const Octomap& message) {
 }
 
 std::optional<Exploration::Trial> LearnerNode::nextTrial(Run& run) {
-  return run.ground ? run.exploration->next(*run.ground, objects_.find(run.object_id)->map_T_object)
-                    : std::as_const(*run.exploration).next();
+  if (!run.ground) {
+    return std::as_const(*run.exploration).next();
+  }
+  if (run.exploration->finished()) {
+    return std::nullopt;
+  }
+  const std::optional<ObjectState> object = see(run.object_id);
+  if (!object) {
+    run.fail(LearnObjectResult::FAILED, run.object_id + " is not in sight (topic objects)");
+    endIfAsked(run);
+    return std::nullopt;
+  }
+  return run.exploration->next(*run.ground, object->map_T_object);
 }
 
 }  // namespace casepush

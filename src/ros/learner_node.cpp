@@ -26,7 +26,6 @@ constexpr double kPlacedRad = 0.1;
 constexpr double kSeenPatienceS = 10.0;                // Wall time.
 constexpr std::chrono::seconds kExecutorPatience(20);  // Wall time.
 constexpr milliseconds kLook(20);
-constexpr int kRefusals = 5;  // In a row by the executor, before learning gives up.
 
 const char* toString(Exploration::Trial::Kind kind) {
   switch (kind) {
@@ -71,6 +70,8 @@ LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handl
                                             names::kCaseMarkers.queue_size, true);
   reports_subscriber_ = handle_.subscribe(names::kPushReports.name, names::kPushReports.queue_size,
                                           &LearnerNode::onReport, this);
+  stops_subscriber_ =
+      handle_.subscribe(names::kStops.name, names::kStops.queue_size, &LearnerNode::onStop, this);
   export_ = handle_.advertiseService(names::kExportCasesService, &LearnerNode::onExport, this);
   import_ = handle_.advertiseService(names::kImportCasesService, &LearnerNode::onImport, this);
   publishCases();
@@ -132,23 +133,15 @@ void LearnerNode::learn(const LearnObjectGoal& goal, Run& run) {
     run.fail(LearnObjectResult::INVALID_GOAL, error.what());
     return;
   }
-  run.exploration =
-      std::make_unique<Exploration>(run.instance->model, parameters_.furnishing.robot, run.options);
-  {
-    const std::lock_guard<std::mutex> lock(base_mutex_);
-    run.exploration->resume(learntIn(base_.cases(run.instance->model.name), parameters_.context));
-    run.done_before = run.exploration->pushesDone();
-  }
+  resume(run);
   if (!begin(run)) {
+    endIfAsked(run);
     return;
   }
-  while (const std::optional<Exploration::Trial> trial = nextTrial(run)) {
-    const std::optional<PushReport> report = execute(run, *trial);
-    if (!report) {
-      return;
-    }
-    ++run.pushes;
-    store(run, *trial, *report);
+  while (push(run)) {
+  }
+  if (!run.exploration->finished()) {
+    return;
   }
   if (run.exploration->gaveUp()) {
     run.fail(LearnObjectResult::GAVE_UP, run.exploration->explanation());
@@ -157,7 +150,34 @@ void LearnerNode::learn(const LearnObjectGoal& goal, Run& run) {
   run.result.status = LearnObjectResult::DONE;
   run.result.explanation = "knows " + std::to_string(run.options.cases) +
                            " cases, each practised " + std::to_string(run.options.practices) +
-                           " times";
+                           " times (" + describe(run.context) + ")";
+}
+
+void LearnerNode::resume(Run& run) {
+  {
+    const std::lock_guard<std::mutex> lock(state_mutex_);
+    was_stopped_ = false;
+  }
+  run.exploration =
+      std::make_unique<Exploration>(run.instance->model, parameters_.furnishing.robot, run.options);
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  const std::string& object = run.instance->model.name;
+  run.context = adapting_.context(object);
+  // The executor knows no others than those that are published.
+  run.exploration->resume(learntIn(adapting_.cases(object), run.context));
+  run.done_before = run.exploration->pushesDone();
+  ROS_INFO("learning %s (%s)", run.object_id.c_str(), describe(run.context).c_str());
+}
+
+bool LearnerNode::push(Run& run) {
+  const std::optional<Exploration::Trial> trial = nextTrial(run);
+  const std::optional<PushReport> report = trial ? execute(run, *trial) : std::nullopt;
+  if (!report) {
+    return false;
+  }
+  ++run.pushes;
+  store(run, *trial, *report);
+  return true;
 }
 
 bool LearnerNode::begin(Run& run) {
@@ -168,7 +188,7 @@ bool LearnerNode::begin(Run& run) {
     const std::lock_guard<std::mutex> lock(state_mutex_);
     shown_object_ = run.object_id;
   }
-  if (!waitForExecutor()) {
+  if (!waitUntil([this] { return execute_push_.isServerConnected(); }, kExecutorPatience)) {
     return run.fail(LearnObjectResult::EXECUTOR_GONE, "action execute_push does not answer");
   }
   run.teleport = canTeleport();
@@ -176,16 +196,43 @@ bool LearnerNode::begin(Run& run) {
     return run.fail(LearnObjectResult::FAILED, "reset is teleport, but there is no service " +
                                                    std::string(names::kSetPoseService));
   }
-  const auto any = [](const ObjectState& /*object*/) { return true; };
-  if (!objects_.wait(run.object_id, any, kSeenPatienceS, [this] { return shouldEnd(); })) {
+  const std::optional<ObjectState> object = see(run.object_id);
+  if (!object) {
     return run.fail(LearnObjectResult::FAILED,
                     run.object_id + " has not been seen (topic objects)");
   }
-  run.map_T_home = parameters_.home.value_or(objects_.find(run.object_id)->map_T_object);
+  run.map_T_home = parameters_.home.value_or(object->map_T_object);
   return run.teleport || findGround(run);
 }
 
-bool LearnerNode::shouldEnd() { return !ros::ok() || server_.isPreemptRequested(); }
+std::optional<ObjectState> LearnerNode::see(const std::string& id) {
+  const auto any = [](const ObjectState& /*object*/) { return true; };
+  return objects_.wait(id, any, kSeenPatienceS, [this] { return shouldEnd(); });
+}
+
+bool LearnerNode::shouldEnd() {
+  const std::lock_guard<std::mutex> lock(state_mutex_);
+  return was_stopped_ || !ros::ok() || server_.isPreemptRequested();
+}
+
+bool LearnerNode::endIfAsked(Run& run) {
+  if (!shouldEnd()) {
+    return false;
+  }
+  const std::lock_guard<std::mutex> lock(state_mutex_);
+  if (was_stopped_) {
+    run.fail(LearnObjectResult::FAILED, std::string("stopped by the service stop") + Run::kKept);
+  } else {
+    run.fail(LearnObjectResult::CANCELLED, std::string("cancelled") + Run::kKept);
+  }
+  return true;
+}
+
+void LearnerNode::onStop(const std_msgs::Empty& /*message*/) {
+  const std::lock_guard<std::mutex> lock(state_mutex_);
+  was_stopped_ = true;
+  state_changed_.notify_all();
+}
 
 bool LearnerNode::canTeleport() {
   return parameters_.reset != ResetMode::kDrive && set_pose_.exists();
@@ -197,10 +244,9 @@ bool LearnerNode::waitForChange(const std::function<bool()>& condition) {
   return state_changed_.wait_for(lock, kLook, condition);
 }
 
-bool LearnerNode::waitForExecutor() {
-  const std::chrono::steady_clock::time_point end =
-      std::chrono::steady_clock::now() + kExecutorPatience;
-  while (!execute_push_.isServerConnected()) {
+bool LearnerNode::waitUntil(const std::function<bool()>& condition, milliseconds patience) {
+  const std::chrono::steady_clock::time_point end = std::chrono::steady_clock::now() + patience;
+  while (!condition()) {
     if (shouldEnd() || std::chrono::steady_clock::now() > end) {
       return false;
     }
@@ -235,73 +281,17 @@ std::string LearnerNode::reset(const Run& run, const Exploration::Trial& trial) 
            distance(object.map_T_object, run.map_T_home) < kPlacedM &&
            std::abs(yawDifference(object.map_T_object, run.map_T_home)) < kPlacedRad;
   };
-  const bool seen =
+  const std::optional<ObjectState> seen =
       objects_.wait(run.object_id, stands_there, kSeenPatienceS, [this] { return shouldEnd(); });
   return seen ? "" : run.object_id + " is not seen where it was put";
-}
-
-std::optional<PushReport> LearnerNode::execute(Run& run, const Exploration::Trial& trial) {
-  ExecutePushGoal goal;
-  goal.object_id = run.object_id;
-  goal.case_id = trial.case_id.value_or(0);
-  goal.configuration = toMessage(trial.configuration);
-  for (run.refusals = 0; run.refusals < kRefusals; ++run.refusals) {
-    publishProgress(run, trial);
-    const std::string problem = reset(run, trial);
-    if (shouldEnd()) {
-      run.fail(LearnObjectResult::CANCELLED, "cancelled; finished pushes are kept");
-      return std::nullopt;
-    }
-    if (!problem.empty()) {
-      run.fail(LearnObjectResult::FAILED, problem);
-      ROS_WARN("reset: %s", problem.c_str());
-      continue;
-    }
-    const std::optional<ExecutePushResult> result = call(goal, run);
-    if (!result) {
-      return std::nullopt;
-    }
-    if (result->status == ExecutePushResult::EXECUTED) {
-      return fromMessage(result->report);
-    }
-    // The executor may not have heard of a case that was stored a moment ago.
-    run.fail(LearnObjectResult::FAILED, "execute_push: " + result->explanation);
-  }
-  return std::nullopt;
-}
-
-std::optional<ExecutePushResult> LearnerNode::call(const ExecutePushGoal& goal, Run& run) {
-  {
-    const std::lock_guard<std::mutex> lock(state_mutex_);
-    push_done_ = false;
-  }
-  execute_push_.sendGoal(goal, [this](const actionlib::SimpleClientGoalState& /*state*/,
-                                      const ExecutePushResultConstPtr& /*result*/) {
-    const std::lock_guard<std::mutex> lock(state_mutex_);
-    push_done_ = true;
-    state_changed_.notify_all();
-  });
-  while (!waitForChange([this] { return push_done_; })) {
-    if (shouldEnd()) {
-      execute_push_.cancelGoal();
-      run.fail(LearnObjectResult::CANCELLED, "cancelled; finished pushes are kept");
-      return std::nullopt;
-    }
-    if (!execute_push_.isServerConnected()) {
-      run.fail(LearnObjectResult::EXECUTOR_GONE, "action execute_push went away");
-      return std::nullopt;
-    }
-  }
-  const ExecutePushResultConstPtr result = execute_push_.getResult();
-  return result == nullptr ? ExecutePushResult() : *result;
 }
 
 void LearnerNode::store(Run& run, const Exploration::Trial& trial, const PushReport& report) {
   {
     const std::lock_guard<std::mutex> lock(base_mutex_);
     const PushGround* ground = run.ground ? &*run.ground : nullptr;
-    if (!keep(*run.exploration, trial, report, base_,
-              {parameters_.adapting.floor, parameters_.context}, ground)) {
+    if (!keep(*run.exploration, trial, report, base_, {parameters_.adapting.floor, run.context},
+              ground)) {
       ROS_DEBUG("push not kept: %s %s", toString(report.outcome), report.explanation.c_str());
       return;
     }

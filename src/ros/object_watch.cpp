@@ -39,17 +39,17 @@ std::optional<ObjectState> ObjectWatch::find(const std::string& id) const {
   return std::nullopt;
 }
 
-bool ObjectWatch::wait(const std::string& id,
-                       const std::function<bool(const ObjectState&)>& condition, double patience_s,
-                       const std::function<bool()>& give_up) const {
+std::optional<ObjectState> ObjectWatch::wait(
+    const std::string& id, const std::function<bool(const ObjectState&)>& condition,
+    double patience_s, const std::function<bool()>& give_up) const {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience_s);
   while (true) {
     const std::optional<ObjectState> object = find(id);
     if (object && condition(*object)) {
-      return true;
+      return object;
     }
     if (give_up() || std::chrono::steady_clock::now() > end) {
-      return false;
+      return std::nullopt;
     }
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait_for(lock, kLook);

@@ -2,6 +2,7 @@
 """A robot that nobody helps: it drives around the chair, keeps it off the walls, and goes on after
 its learner was killed."""
 
+import math
 import os
 import shutil
 import sys
@@ -11,6 +12,8 @@ import unittest
 import actionlib
 import rospy
 import rostest
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Trigger
 
 import harness
 from casepush.msg import (BodyContactArray, LearnObjectAction, LearnObjectGoal, LearnObjectResult,
@@ -65,6 +68,25 @@ class LearnerDriveTest(unittest.TestCase):
         walls = [c for _, m in self.contacts.all() for c in m.contacts
                  if "wall" in c.body_a or "wall" in c.body_b]
         self.assertEqual(walls, [])
+
+    def test_stops_for_good_by_the_service(self):
+        self.client.send_goal(LearnObjectGoal(object_id=harness.OBJECT, cases=14, practices=20,
+                                              seed=2))
+        commands = harness.Recorder("cmd_vel", Twist)
+        commands.wait(lambda m: math.hypot(m.linear.x, m.linear.y) > 0.1, 60.0)
+        stop = rospy.ServiceProxy("stop", Trigger)
+        self.assertTrue(stop().success)
+        result = harness.result_of(self.client)
+        self.assertEqual(result.status, LearnObjectResult.FAILED, result.explanation)
+        self.assertIn("stopped by the service stop", result.explanation)
+        # It tells the base once more to stand, so what comes after that comes too late.
+        commands.clear()
+        self.assertTrue(stop().success)
+        commands.wait(harness.is_zero)
+        commands.clear()
+        stamp = self.truth.last().header.stamp
+        self.truth.wait(lambda m: m.header.stamp > stamp + rospy.Duration(10.0))
+        self.assertEqual([m for _, m in commands.all() if not harness.is_zero(m)], [])
 
 
 if __name__ == "__main__":

@@ -117,6 +117,7 @@ class ExecutorNode {
   ros::Publisher reports_;
   ros::Publisher summaries_;
   ros::Publisher state_;
+  ros::Publisher stops_;
   ros::Subscriber cases_subscriber_;
   ros::Subscriber objects_subscriber_;
   ros::Subscriber odometry_subscriber_;

@@ -8,7 +8,9 @@
 #include <casepush/LearnObjectAction.h>
 #include <casepush/Octomap.h>
 #include <ros/ros.h>
+#include <std_msgs/Empty.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -48,27 +50,38 @@ class LearnerNode {
 
   void onGoal(const LearnObjectGoalConstPtr& goal);
   void learn(const LearnObjectGoal& goal, Run& run);
+  void resume(Run& run);  ///< With what is known in the present circumstances.
   ExplorationOptions explorationOptions(const LearnObjectGoal& goal) const;
   bool begin(Run& run);
   bool findGround(Run& run);
   std::shared_ptr<const Map> waitForMap();
+  /// Chooses a push, executes it, and stores it. False if the run has to end: either exploration
+  /// has finished, or the result says why.
+  bool push(Run& run);
   std::optional<Exploration::Trial> nextTrial(Run& run);
   bool canTeleport();
-  bool waitForExecutor();
+  /// Waits for an object to be seen. Nothing if it is not, or the run should end.
+  std::optional<ObjectState> see(const std::string& id);
   /// Waits for a moment or until the condition on guarded state holds; returns whether it does.
   bool waitForChange(const std::function<bool()>& condition);
-  bool shouldEnd();  ///< The goal was cancelled, or ROS shuts down.
+  /// Looks at something that is not guarded, until it holds. False if it takes too long, or the run
+  /// should end.
+  bool waitUntil(const std::function<bool()>& condition, std::chrono::milliseconds patience);
+  bool shouldEnd();           ///< The goal was cancelled, the robot was stopped, or ROS shuts down.
+  bool endIfAsked(Run& run);  ///< If it should end, the result says why, and that it was asked to.
 
   /// Puts object and robot where the trial starts. Returns why not, or "".
   std::string reset(const Run& run, const Exploration::Trial& trial);
   /// Executes a trial. Nothing if the run has to end; its result says why.
   std::optional<PushReport> execute(Run& run, const Exploration::Trial& trial);
+  /// Nothing as in execute().
   std::optional<ExecutePushResult> call(const ExecutePushGoal& goal, Run& run);
   void store(Run& run, const Exploration::Trial& trial, const PushReport& report);
   void publishProgress(const Run& run, const Exploration::Trial& trial);
 
   void onOctomap(const Octomap& message);
   void onReport(const ExecutedPush& message);
+  void onStop(const std_msgs::Empty& message);
   std::string adaptBy(const PushReport& report);
   bool onExport(ExportCases::Request& request, ExportCases::Response& response);
   bool onImport(ImportCases::Request& request, ImportCases::Response& response);
@@ -90,6 +103,7 @@ class LearnerNode {
   std::string shown_object_;  ///< Instance around which cases are drawn.
   Pose2 shown_at_;
   bool push_done_ = false;
+  bool was_stopped_ = false;        ///< By the service stop, since the run began.
   std::shared_ptr<const Map> map_;  ///< Null until there is one.
 
   ros::ServiceClient set_pose_;
@@ -97,6 +111,7 @@ class LearnerNode {
   ros::Publisher markers_;
   ros::Subscriber reports_subscriber_;
   ros::Subscriber octomap_subscriber_;
+  ros::Subscriber stops_subscriber_;
   ros::ServiceServer export_;
   ros::ServiceServer import_;
   ros::WallTimer marker_timer_;

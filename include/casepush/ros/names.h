@@ -37,6 +37,7 @@ constexpr Topic kPlan{"plan", 1};            ///< Latched.
 constexpr Topic kPushReports{"push_reports", 1000};
 constexpr Topic kTaskSummaries{"task_summaries", 100};
 constexpr Topic kExecutorState{"executor/state", 10};  ///< Latched.
+constexpr Topic kStops{"executor/stops", 10};
 
 // For RViz; all latched.
 constexpr Topic kRobotMarkers{"robot/markers", 1};

@@ -25,9 +25,11 @@ class ObjectWatch {
 
   /// Waits until the object fulfils the condition.
   /// @param give_up  Asked again and again.
-  /// @return false after `patience_s` of wall time, or if told to give up.
-  bool wait(const std::string& id, const std::function<bool(const ObjectState&)>& condition,
-            double patience_s, const std::function<bool()>& give_up) const;
+  /// @return  The object as it then is; nothing after `patience_s` of wall time, or if told to give
+  ///          up.
+  std::optional<ObjectState> wait(const std::string& id,
+                                  const std::function<bool(const ObjectState&)>& condition,
+                                  double patience_s, const std::function<bool()>& give_up) const;
 
  private:
   void onObjects(const PushableObjectArray& message);
