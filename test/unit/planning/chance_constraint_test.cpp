@@ -102,11 +102,11 @@ TEST_P(ChanceConstraint, leavesTimeForLargerProbabilities) {
   options.max_nodes = 10000000;
   options.risk.recovery_s = 0.0;
   PlanRequest request = requestFor(kBeforeGap, kBehindGap);
-  request.deadline_s = 2.0;
+  request.deadline_s = 4.0;
   const PlanResult result =
       plannerFor(roomWithGap(0.85), options)->plan(request, syntheticPushes(14, 7, imprecise));
   EXPECT_EQ(result.status, PlanStatus::kSolved) << result.explanation;
-  EXPECT_LT(result.planning_s, 4.0) << "a busy machine included";
+  EXPECT_LT(result.planning_s, 8.0) << "a busy machine included";
 }
 
 TEST_P(ChanceConstraint, prefersPreciseCasesOfEqualLength) {
