@@ -15,6 +15,9 @@
 namespace casepush {
 namespace {
 
+// Of a push between poses that have to be free, in cells. Whoever takes longer ones gets through
+// anything, and what he reaches takes long to look at.
+constexpr double kLongestStep = 4.0;
 constexpr double kMouth_m = 0.3;   // Of a gap: so far it was come in already.
 constexpr double kBeyond_m = 1.0;  // Ahead of there the narrowest place is looked for.
 
@@ -125,6 +128,7 @@ CutOff findCutOff(const SearchProblem& problem, PushChecker* checker,
                          0.0,
                          0.0};
   noteSteps(cases, &outline);
+  if (outline.step_m > kLongestStep * columns.resolution_m) return result;
   const OutlineFlood flood(outline, checker->clearance(), patience);
   result.is_certain = flood.isShutOut();
   if (!result.is_certain) return result;

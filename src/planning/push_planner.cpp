@@ -152,8 +152,9 @@ PlanResult failed(PlanStatus status, std::string explanation) {
 
 PlanResult stopped(const PlanRequest& request, const SearchClock& clock) {
   if (clock.isCancelled()) return failed(PlanStatus::kCancelled, "cancelled while planning");
-  return failed(PlanStatus::kDeadline, "no plan within " + rounded(request.deadline_s, 1) +
-                                           " s; allow more time or move the goal");
+  return failed(PlanStatus::kDeadline,
+                "no plan within " + rounded(request.deadline_s, request.deadline_s < 0.1 ? 3 : 1) +
+                    " s; allow more time or move the goal");
 }
 
 }  // namespace
