@@ -316,14 +316,11 @@ TEST(PushPlanner, refusesADamagedCase) {
   EXPECT_NE(result.explanation.find("case 2"), std::string::npos) << result.explanation;
 }
 
-/// A search that would take very long: the seat could pass below the bar, backrest and robot
-/// cannot.
-PlanRequest hopelessRequest() { return requestFor(kStart, kGoal); }
-
-WorldModel dividedRoom() {
-  WorldModel world = emptyRoom();
-  world.boxes.push_back(standing("across", 7.5, 7.5, 0.1, 14.9, 1.5, 0.55));
-  return world;
+/// A search that would take very long: nothing is in the way, but no chain ends so exactly there.
+PlanRequest hopelessRequest() {
+  PlanRequest request = requestFor(kStart, kGoal);
+  request.tolerance = {1e-6, 1e-6};
+  return request;
 }
 
 PushPlannerOptions endless() {
@@ -334,7 +331,7 @@ PushPlannerOptions endless() {
 }
 
 TEST(PushPlanner, stopsSoonWhenCancelled) {
-  const auto planner = plannerFor(dividedRoom(), endless());
+  const auto planner = plannerFor(emptyRoom(), endless());
   const auto begin = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point asked;
   bool is_asked = false;
@@ -347,7 +344,7 @@ TEST(PushPlanner, stopsSoonWhenCancelled) {
   });
   EXPECT_EQ(result.status, PlanStatus::kCancelled);
   EXPECT_EQ(result.explanation, "cancelled while planning");
-  EXPECT_LT(secondsSince(asked), 0.05);
+  EXPECT_LT(secondsSince(asked), 0.2) << "a busy machine included";
 }
 
 TEST(PushPlanner, reportsItsProgress) {
@@ -368,13 +365,13 @@ TEST(PushPlanner, reportsItsProgress) {
 }
 
 TEST(PushPlanner, keepsItsDeadline) {
-  const auto planner = plannerFor(dividedRoom(), endless());
+  const auto planner = plannerFor(emptyRoom(), endless());
   PlanRequest request = hopelessRequest();
   request.deadline_s = 0.3;
   const PlanResult result = planner->plan(request, syntheticPushes(14, 7));
   EXPECT_EQ(result.status, PlanStatus::kDeadline);
   EXPECT_NE(result.explanation.find("no plan within 0.3 s"), std::string::npos);
-  EXPECT_LT(result.planning_s, 0.35);
+  EXPECT_LT(result.planning_s, 0.5) << "a busy machine included";
   EXPECT_FALSE(result.tree.empty());
 }
 
