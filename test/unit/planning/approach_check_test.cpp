@@ -19,30 +19,36 @@ struct Scene {
   RobotPathOptions options;
 };
 
+/// The quick check and the path planner, which is the truth, with pushes to approach.
+struct Comparison : Scene {
+  using Scene::Scene;
+
+  RobotPathPlanner paths{robot, options};
+  ApproachLibrary library{checker, robot, objects, options};
+  ClearanceGrid grid{checker.columns(), library.discs()};
+  ApproachCheck check{&library, grid, checker, {}};
+  std::shared_ptr<const Footprint> object = checker.footprint(testChair().solid);
+  std::vector<PreparedCase> cases =
+      prepareCases(syntheticPushes(6, 5), 0.0, 0.025, testChair().radius_m, robot.radius_m);
+};
+
 // What the quick check says yes to, the path planner must find.
 TEST(ApproachCheck, isSufficient) {
-  Scene scene(furnishedRoom());
-  const RobotPathPlanner paths(scene.robot, scene.options);
-  ApproachLibrary library(scene.checker, scene.robot, scene.objects, scene.options);
-  const ClearanceGrid grid(scene.checker.columns(), library.discs());
-  ApproachCheck check(&library, grid, scene.checker, {});
-  const auto object = scene.checker.footprint(testChair().solid);
-  const std::vector<PreparedCase> cases =
-      prepareCases(syntheticPushes(6, 5), 0.0, 0.025, testChair().radius_m, scene.robot.radius_m);
+  Comparison scene(furnishedRoom());
   Random random(4);
   int accepted = 0;
   int found = 0;
   for (int i = 0; i < 150; ++i) {
-    const Pose2 pose = randomFreePose(scene.checker, *object, &random);
-    const PreparedCase& previous = cases[random.below(cases.size())];
-    const PreparedCase& next = cases[random.below(cases.size())];
+    const Pose2 pose = randomFreePose(scene.checker, *scene.object, &random);
+    const PreparedCase& previous = scene.cases[random.below(scene.cases.size())];
+    const PreparedCase& next = scene.cases[random.below(scene.cases.size())];
     CollisionChecker standing = scene.checker;
     standing.setObstacles({{testChair().solid, pose}});
-    const bool truth = paths
+    const bool truth = scene.paths
                            .plan(standing, pose * previous.outcome_T_robot, pose * next.robot_begin,
                                  pose.yaw() + next.push_direction_rad)
                            .found;
-    const bool quick = check.canFollow({"", "chair", pose}, previous, next);
+    const bool quick = scene.check.canFollow({"", "chair", pose}, previous, next);
     EXPECT_TRUE(truth || !quick) << pose.x() << " " << pose.y();
     accepted += quick;
     found += truth;
@@ -56,29 +62,23 @@ TEST(ApproachCheck, reachesFromAfarWhatThePathPlannerReaches) {
   WorldModel world = furnishedRoom();
   world.boxes.push_back(standing("screen", 1.5, 13.0, 2.8, 0.1, 1.5));
   world.boxes.push_back(standing("other_screen", 2.9, 14.0, 0.1, 2.0, 1.5));
-  Scene scene(world);
-  const RobotPathPlanner paths(scene.robot, scene.options);
-  ApproachLibrary library(scene.checker, scene.robot, scene.objects, scene.options);
-  const ClearanceGrid grid(scene.checker.columns(), library.discs());
-  ApproachCheck check(&library, grid, scene.checker, {});
-  const auto object = scene.checker.footprint(testChair().solid);
-  const std::vector<PreparedCase> cases =
-      prepareCases(syntheticPushes(6, 5), 0.0, 0.025, testChair().radius_m, scene.robot.radius_m);
+  Comparison scene(world);
   Random random(4);
   int accepted = 0;
   int found = 0;
   int all = 0;
   for (int i = 0; i < 12; ++i) {
-    const Pose2 pose = randomFreePose(scene.checker, *object, &random);
+    const Pose2 pose = randomFreePose(scene.checker, *scene.object, &random);
     const Pose2 robot =
-        i % 3 == 0 ? Pose2(1.5, 14.0, 0.0) : randomFreePose(scene.checker, *object, &random);
+        i % 3 == 0 ? Pose2(1.5, 14.0, 0.0) : randomFreePose(scene.checker, *scene.object, &random);
     CollisionChecker standing = scene.checker;
     standing.setObstacles({{testChair().solid, pose}});
-    for (const PreparedCase& next : cases) {
+    for (const PreparedCase& next : scene.cases) {
       const bool truth =
-          paths.plan(standing, robot, pose * next.robot_begin, pose.yaw() + next.push_direction_rad)
+          scene.paths
+              .plan(standing, robot, pose * next.robot_begin, pose.yaw() + next.push_direction_rad)
               .found;
-      const bool quick = check.canReach({"", "chair", pose}, robot, next);
+      const bool quick = scene.check.canReach({"", "chair", pose}, robot, next);
       EXPECT_TRUE(truth || !quick) << pose.x() << " " << pose.y();
       accepted += quick;
       found += truth;
@@ -92,8 +92,6 @@ TEST(ApproachCheck, reachesFromAfarWhatThePathPlannerReaches) {
 
 TEST(RobotPathPlanner, endsWhenStopped) {
   Scene scene(emptyRoom());
-  ApproachLibrary library(scene.checker, scene.robot, scene.objects, scene.options);
-  const ClearanceGrid grid(scene.checker.columns(), library.discs());
   const PreparedCase push = prepareCase(syntheticPushes(1, 5).front(), 0.0, 0.025,
                                         testChair().radius_m, scene.robot.radius_m);
   bool is_over = false;
