@@ -204,11 +204,7 @@ TEST(ExecutePush, plansAnewWhenTheObjectIsMovedDuringTheApproach) {
   FakeWorld world(10);
   world.robot = Pose2(-3.0, 0.0, 0.0);
   int plans = 0;
-  ExecutePush push =
-      firstTrial(test::straightPush(), [&plans](const Observation& o, const Pose2& g, double d) {
-        ++plans;
-        return test::detour(o, g, d);
-      });
+  ExecutePush push = firstTrial(test::straightPush(), test::countedDetour(&plans));
   for (int i = 0; i < 100; ++i) {
     world.advance(push.tick(world.observe()).command.twist);
   }
@@ -226,11 +222,7 @@ TEST(ExecutePush, plansAnewWhenAnotherObjectComesInSightOrMovesBesideItsWay) {
   FakeWorld world(10);
   world.robot = Pose2(-4.0, 0.0, 0.0);
   int plans = 0;
-  ExecutePush push =
-      firstTrial(test::straightPush(), [&plans](const Observation& o, const Pose2& g, double d) {
-        ++plans;
-        return test::detour(o, g, d);
-      });
+  ExecutePush push = firstTrial(test::straightPush(), test::countedDetour(&plans));
   ObjectState other;
   other.id = "chair_2";
   other.model = "disc";

@@ -207,6 +207,14 @@ inline RobotPath detour(const Observation& observation, const Pose2& goal,
   return pathThrough(std::move(waypoints));
 }
 
+/// The same, which counts how often it is asked.
+inline ApproachPlanner countedDetour(int* asked) {
+  return [asked](const Observation& observation, const Pose2& goal, double dock_direction_rad) {
+    ++*asked;
+    return detour(observation, goal, dock_direction_rad);
+  };
+}
+
 /// A push straight along the object's +x, from behind.
 inline PushConfiguration straightPush() {
   PushConfiguration push;

@@ -107,10 +107,7 @@ TEST_F(ObjectSearchTest, leavesPlacesOutThatCanNotBeReached) {
 
 TEST_F(ObjectSearchTest, looksForAnotherWayWhenSomethingComesInSightBesideIt) {
   int asked = 0;
-  way_ = [&asked](const Observation& observation, const Pose2& goal, double direction) {
-    ++asked;
-    return test::detour(observation, goal, direction);
-  };
+  way_ = test::countedDetour(&asked);
   ObjectSearch on_the_way = search();
   while (asked == 0 || max_speed_mps_ < 0.3) {
     const Tick tick = on_the_way.tick(world_.observe());
