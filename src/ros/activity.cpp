@@ -24,16 +24,13 @@ static_assert(PushObjectResult::TIMEOUT == static_cast<int>(PushTaskStatus::kTim
 
 std::uint32_t count(int value) { return static_cast<std::uint32_t>(value); }
 
-/// "no_progress": as the constants of the result in lower case.
-std::string statusName(ActivityEnd how, PushTaskStatus status) {
-  std::string name = how == ActivityEnd::kStopped     ? "stopped"
-                     : how == ActivityEnd::kCancelled ? toString(PushTaskStatus::kCancelled)
-                                                      : toString(status);
+}  // namespace
+
+std::string statusName(PushTaskStatus status) {
+  std::string name = toString(status);
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }
-
-}  // namespace
 
 const char* toString(ExecutePush::Phase phase) {
   switch (phase) {
@@ -140,8 +137,7 @@ PushObjectResult PushObjectActivity::result(ActivityEnd how, const std::string& 
 }
 
 TaskSummary summaryOf(const std::string& goal_id, const PushTaskGoal& goal, const PushTask& task,
-                      ActivityEnd how, PushTaskStatus status, const std::string& explanation,
-                      double start_stamp_s) {
+                      PushTaskStatus status, const std::string& explanation, double start_stamp_s) {
   const PushTaskProgress& progress = task.progress();
   TaskSummary summary;
   summary.goal_id = goal_id;
@@ -150,7 +146,7 @@ TaskSummary summaryOf(const std::string& goal_id, const PushTaskGoal& goal, cons
   summary.position_tolerance = goal.tolerance.position_m;
   summary.yaw_tolerance = goal.tolerance.yaw_rad;
   summary.start_stamp = toRosTime(start_stamp_s);
-  summary.status = statusName(how, status);
+  summary.status = statusName(status);
   summary.explanation = explanation.empty() ? task.describe() : explanation;
   summary.position_error = progress.distance_to_goal_m;
   summary.yaw_error = std::abs(progress.yaw_to_goal_rad);
@@ -169,10 +165,8 @@ TaskSummary summaryOf(const std::string& goal_id, const PushTaskGoal& goal, cons
   return summary;
 }
 
-std::optional<TaskSummary> PushObjectActivity::summary(ActivityEnd how,
-                                                       const std::string& explanation) const {
-  return summaryOf(goalId(), task_goal_, task_, how, task_.status(), explanation,
-                   startStamp().value_or(0.0));
+std::optional<TaskSummary> PushObjectActivity::summary() const {
+  return summaryOf(goalId(), task_goal_, task_, task_.status(), "", startStamp().value_or(0.0));
 }
 
 void PushObjectActivity::finish(ActivityEnd how, const std::string& explanation, double now_s) {

@@ -254,7 +254,7 @@ void ExecutorNode::finish() {
   const std::unique_ptr<Activity> ended = std::move(activity_);
   last_end_ = end_explanation_.empty() ? ended->describe() : end_explanation_;
   publishState(last_stamp_s_);
-  if (std::optional<TaskSummary> summary = ended->summary(end_, end_explanation_)) {
+  if (std::optional<TaskSummary> summary = ended->summary()) {
     summarySink()(*summary);
   }
   ended->finish(end_, end_explanation_, last_stamp_s_);
@@ -262,9 +262,12 @@ void ExecutorNode::finish() {
 
 SummarySink ExecutorNode::summarySink() {
   return [this](TaskSummary summary) {
-    if (end_ == ActivityEnd::kStopped) {  // Which its behaviour does not know.
+    // Its behaviour does not know of a stop, nor, without an observation, of being cancelled.
+    if (end_ == ActivityEnd::kStopped) {
       summary.status = "stopped";
       summary.explanation = end_explanation_;
+    } else if (end_ == ActivityEnd::kCancelled) {
+      summary.status = statusName(PushTaskStatus::kCancelled);
     }
     summary.header.stamp = toRosTime(last_stamp_s_);
     summary.header.frame_id = names::kMapFrame;

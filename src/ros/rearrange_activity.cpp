@@ -39,18 +39,16 @@ RearrangeServices RearrangeActivity::complete(RearrangeServices services, TaskMa
   services.on_task_end = [this, summaries = std::move(summaries)](
                              const PushTaskGoal& goal, const PushTask& task, PushTaskStatus how,
                              const std::string& why, double began_s) {
-    summaries(summaryOf(goalId(), goal, task, ActivityEnd::kFinished, how, why, began_s));
+    summaries(summaryOf(goalId(), goal, task, how, why, began_s));
   };
   return services;
 }
 
-std::optional<TaskSummary> RearrangeActivity::summary(ActivityEnd how,
-                                                      const std::string& explanation) const {
+std::optional<TaskSummary> RearrangeActivity::summary() const {
   const PushTask* task = rearrange_.task();
   if (task == nullptr) return std::nullopt;
   const PushTaskGoal& goal = request_.tasks[rearrange_.order()[rearrange_.turn()]];
-  return summaryOf(goalId(), goal, *task, how, task->status(), explanation,
-                   rearrange_.taskBeganS());
+  return summaryOf(goalId(), goal, *task, task->status(), "", rearrange_.taskBeganS());
 }
 
 Tick RearrangeActivity::tick(const Observation& observation) {

@@ -38,12 +38,14 @@ using ReportSink = std::function<void(const PushReport&, const ReportContext&)>;
 ReportContext reportContext(const PushTaskProgress& progress, bool adapt, const PushReport& report,
                             std::size_t* reported_replans);
 
+/// "no_progress": as the constants of the result in lower case.
+std::string statusName(PushTaskStatus status);
+
 /// What is to be recorded of a task, without header.
 /// @param goal_id, start_stamp_s  Of the action's goal, and when the task began.
-/// @param how, status, explanation  How it ended.
+/// @param status, explanation  How it ended, if it ended by itself; an empty one: as the task says.
 TaskSummary summaryOf(const std::string& goal_id, const PushTaskGoal& goal, const PushTask& task,
-                      ActivityEnd how, PushTaskStatus status, const std::string& explanation,
-                      double start_stamp_s);
+                      PushTaskStatus status, const std::string& explanation, double start_stamp_s);
 using SummarySink = std::function<void(TaskSummary)>;
 
 /// A behaviour that an action goal asked for.
@@ -60,10 +62,7 @@ class Activity {
   virtual void publishFeedback() = 0;
 
   /// What is to be recorded of it when it has ended, without header; nothing if it is no task.
-  virtual std::optional<TaskSummary> summary(ActivityEnd /*end*/,
-                                             const std::string& /*explanation*/) const {
-    return std::nullopt;
-  }
+  virtual std::optional<TaskSummary> summary() const { return std::nullopt; }
 
   /// Sends the action's result.
   virtual void finish(ActivityEnd end, const std::string& explanation, double now_s) = 0;
@@ -108,8 +107,7 @@ class PushObjectActivity : public GoalActivity<PushObjectServer::GoalHandle, Pus
 
   ExecutorState state() const override;
   void publishFeedback() override;
-  std::optional<TaskSummary> summary(ActivityEnd end,
-                                     const std::string& explanation) const override;
+  std::optional<TaskSummary> summary() const override;
   void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
 
  private:

@@ -33,8 +33,7 @@ class RearrangeActivity : public GoalActivity<RearrangeServer::GoalHandle, Rearr
   ExecutorState state() const override;
   void publishFeedback() override;
   /// Of the task that was under way when all was stopped.
-  std::optional<TaskSummary> summary(ActivityEnd end,
-                                     const std::string& explanation) const override;
+  std::optional<TaskSummary> summary() const override;
   void finish(ActivityEnd end, const std::string& explanation, double now_s) override;
 
  private:
