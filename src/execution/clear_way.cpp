@@ -225,6 +225,7 @@ void ClearWay::Data::startPush() {
   }
   text = "clearing " + plan.object.id + " out of the way";
   push.emplace(plan.object.id, *found, robot, services.approach(plan.object.id), options.push);
+  push->watchAhead(services.touches(plan.object.id));
   rest = std::move(plan);
   rest.pushes.erase(rest.pushes.begin());
 }

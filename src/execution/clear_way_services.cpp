@@ -46,14 +46,6 @@ BeginClearing searchAtOnce(std::function<ClearingResult(const ClearingRequest&)>
   };
 }
 
-ApproachPlanner approachPlanner(const PlannerSource& planner, const std::string& object_id) {
-  return [planner, object_id](const Observation& observation, const Pose2& goal,
-                              double dock_direction_rad) {
-    const auto current = planner();
-    return approachPlanner(*current, object_id)(observation, goal, dock_direction_rad);
-  };
-}
-
 ClearWayServices clearWayServices(const PlannerSource& planner, const std::string& robot,
                                   const CaseSource& cases) {
   ClearWayServices services;
@@ -93,6 +85,7 @@ ClearWayServices clearWayServices(const PlannerSource& planner, const std::strin
     return plan;
   };
   services.approach = [planner](const std::string& id) { return approachPlanner(planner, id); };
+  services.touches = [planner](const std::string& id) { return touchCheck(planner, id); };
   return services;
 }
 

@@ -10,6 +10,7 @@
 #include "casepush/cases/outcome_statistics.h"
 #include "casepush/common/check.h"
 #include "casepush/common/violations.h"
+#include "collision_watch.h"
 #include "push_recorder.h"
 #include "tube_watch.h"
 
@@ -101,6 +102,7 @@ struct ExecutePush::Data {
   HoldWatch held;
   TickClock clock;
   std::optional<TubeWatch> tube;
+  std::optional<CollisionWatch> ahead;
   std::optional<PushRecorder> recorder;
 
   Phase phase = Phase::kApproach;
@@ -111,6 +113,7 @@ struct ExecutePush::Data {
   double moved_at_s = 0.0;   ///< When the last command was given that the base may follow.
   double push_end_s = 0.0;   ///< In push time: when the robot stopped.
   bool broken_off = false;
+  std::string ahead_of;  ///< What the object was about to touch when the push was stopped.
   std::optional<ObjectState> object;  ///< Last usable state.
   PushReport draft;
   std::optional<PushReport> report;
@@ -167,6 +170,11 @@ void ExecutePush::Data::conclude() {
                      ? testPrediction(past, start_T_end, options.alpha)
                      : testPlugIn(past, start_T_end, options.alpha);
   }
+  if (!ahead_of.empty()) {
+    draft.test = {};
+    finish(PushOutcome::kStoppedShort, "stopped before " + object_id + " touched " + ahead_of);
+    return;
+  }
   if (broken_off) {
     draft.test.rejected = true;
     draft.test.p_value = std::min(draft.test.p_value, tube->pValue());
@@ -210,6 +218,7 @@ void ExecutePush::Data::beginPush(const Observation& observation) {
   draft.start_stamp_s = observation.stamp_s;
   draft.map_T_start = object->map_T_object;
   recorder.emplace(options.sample_period_s, draft.map_T_start);
+  if (ahead) ahead->begin(observation, draft.map_T_start);
 }
 
 Twist2 ExecutePush::Data::followPush(const Observation& observation) {
@@ -233,8 +242,10 @@ Twist2 ExecutePush::Data::pushTick(const Observation& observation) {
     finish(PushOutcome::kObjectLost, object_id + " was lost from sight during the push");
     return Twist2{};
   }
+  if (ahead) ahead_of = ahead->aheadOf(observation, push_time_s, *object);
   broken_off = hasLeftTube();
-  const bool is_over = broken_off || push_time_s >= trajectory.durationS() - 1e-6;
+  const bool is_over =
+      broken_off || !ahead_of.empty() || push_time_s >= trajectory.durationS() - 1e-6;
   const Twist2 wanted = is_over ? Twist2{} : followPush(observation);
   recorder->add(push_time_s, observation.map_T_robot, object->map_T_object, wanted);
   if (is_over) {
@@ -363,33 +374,14 @@ std::string ExecutePush::describe() const {
 
 void ExecutePush::cancel() { data_->cancelled = true; }
 
+void ExecutePush::watchAhead(TouchCheck check) {
+  if (data_->options.watch_ahead && data_->push_case && check) {
+    data_->ahead.emplace(*data_->push_case, std::move(check));
+  }
+}
+
 ExecutePush::Phase ExecutePush::phase() const { return data_->phase; }
 
 const std::optional<PushReport>& ExecutePush::report() const { return data_->report; }
-
-std::vector<PlacedObject> otherObjects(const Observation& observation, const std::string& but_id) {
-  std::vector<PlacedObject> others;
-  for (const ObjectState& object : observation.objects) {
-    if (object.id != but_id && isUsable(object)) {
-      others.push_back({object.id, object.model, object.map_T_object});
-    }
-  }
-  return others;
-}
-
-ApproachPlanner approachPlanner(const PushPlanner& planner, const std::string& object_id) {
-  return [&planner, object_id](const Observation& observation, const Pose2& goal,
-                               double dock_direction_rad) {
-    const ObjectState* object = usableObject(observation, object_id);
-    if (object == nullptr) {
-      RobotPath none;
-      none.explanation = object_id + " is not in sight";
-      return none;
-    }
-    return planner.approachPath({object->id, object->model, object->map_T_object},
-                                otherObjects(observation, object_id), observation.map_T_robot, goal,
-                                dock_direction_rad);
-  };
-}
 
 }  // namespace casepush

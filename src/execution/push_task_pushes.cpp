@@ -48,6 +48,7 @@ void PushTask::Data::startPush(const Observation& observation) {
   failed_plans = 0;
   ++progress.push_index;
   push.emplace(goal.object_id, *found, robot, services.approach, options.push);
+  push->watchAhead(services.touches);
   enter(Stage::kPush, "approach", "approaching", observation.stamp_s);
 }
 
@@ -69,7 +70,7 @@ Tick PushTask::Data::pushOn(const Observation& observation) {
   }
   const PushReport report = *push->report();
   push.reset();
-  if (isObservation(report)) {
+  if (isObservation(report) || report.outcome == PushOutcome::kStoppedShort) {
     ++progress.pushes;
     ++progress.pushes_per_plan.back();
     ++progress.pushes_unchanged.back();
@@ -106,6 +107,10 @@ void PushTask::Data::concludePush(const PushReport& report, const Observation& o
       return;
     case PushOutcome::kRobotLost:
       end(PushTaskStatus::kRobotLost, report.explanation);
+      return;
+    case PushOutcome::kStoppedShort:
+      failed_approaches = 0;
+      replan(ReplanCause::kStoppedShort, report.explanation, observation);
       return;
     case PushOutcome::kObjectLost:
     case PushOutcome::kTimeout:

@@ -89,6 +89,11 @@ PushTaskServices completeServices(PushTaskServices services, const std::string& 
                                 : checker->inTheWay(plan, *cases(), objects);
     };
   }
+  if (!services.touches && checker != nullptr) {
+    services.touches = touchCheck(
+        [checker] { return std::shared_ptr<const PushPlanner>(std::shared_ptr<void>(), checker); },
+        object_id);
+  }
   if (!services.approach) {
     services.approach = approachPlanner(*checker, object_id);
   }

@@ -24,6 +24,8 @@ const char* toString(ReplanCause cause) {
       return "object_moved";
     case ReplanCause::kObstacleStuck:
       return "obstacle_stuck";
+    case ReplanCause::kStoppedShort:
+      return "stopped_short";
   }
   return "unknown";
 }

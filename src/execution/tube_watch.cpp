@@ -12,9 +12,9 @@ TubeWatch::TubeWatch(const Case& push_case, const TubeWatchOptions& options)
     : options_(options),
       period_s_(push_case.period_s),
       count_(push_case.effective_count),
-      tube_(push_case.tube.empty() ? tubeFromOutcome(push_case.steps, push_case.start_outcome,
-                                                     CovarianceFloor{})
-                                   : push_case.tube) {}
+      tube_(push_case.tube.empty()
+                ? tubeFromOutcome(push_case.steps, push_case.start_outcome, CovarianceFloor{})
+                : push_case.tube) {}
 
 bool TubeWatch::isOutside(double push_time_s, const Pose2& start_T_object) {
   const auto stepAt = [this](double t_s) {

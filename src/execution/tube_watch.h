@@ -15,7 +15,8 @@ class TubeWatch {
   TubeWatch(const Case& push_case, const TubeWatchOptions& options);
 
   /// @param push_time_s    Since the push began.
-  /// @param stamp_s        When the object was seen; seeing it again in the same frame adds nothing.
+  /// @param stamp_s        When the object was seen; seeing it again in the same frame adds
+  /// nothing.
   /// @return True once the object has been outside for long enough.
   bool hasLeft(double push_time_s, double stamp_s, const Pose2& start_T_object);
 

@@ -15,8 +15,8 @@ class RobotWatch {
 
   explicit RobotWatch(double stale_s) : stale_s_(stale_s) {}
 
-  /// kStale: not finite or too old, so that the robot must stand still; kLost: for over 2 s of ticks,
-  /// whatever the clock says. To be asked at every tick.
+  /// kStale: not finite or too old, so that the robot must stand still; kLost: for over 2 s of
+  /// ticks, whatever the clock says. To be asked at every tick.
   Status check(const Observation& observation);
 
  private:

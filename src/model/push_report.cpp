@@ -24,6 +24,8 @@ const char* toString(PushOutcome outcome) {
       return "broken off";
     case PushOutcome::kBlocked:
       return "blocked";
+    case PushOutcome::kStoppedShort:
+      return "stopped short";
   }
   CASEPUSH_CHECK(false, "PushOutcome " << static_cast<int>(outcome));
 }

@@ -325,6 +325,23 @@ void PushPlanner::Data::improve(const PlanRequest& request, const std::vector<co
   result->collision_checks = collision_checks;
 }
 
+std::string PushPlanner::touched(const std::string& model, const std::vector<Pose2>& map_T_object,
+                                 const std::vector<PlacedObject>& obstacles) const {
+  const auto found = data_->footprints.find(model);
+  if (found == data_->footprints.end() || !checkObstacles(obstacles, data_->objects).empty()) {
+    return "";
+  }
+  const std::vector<PlacedSolid> placed = placeObstacles(obstacles, data_->objects);
+  const CollisionChecker checker = data_->checkerWith(placed);
+  const Footprint& exact = *found->second.exact;
+  for (const Pose2& pose : map_T_object) {
+    if (checker.collides(exact, pose)) {
+      return describe(checker.contacts(exact, pose).front(), placed);
+    }
+  }
+  return "";
+}
+
 RobotPath PushPlanner::approachPath(const PlacedObject& object,
                                     const std::vector<PlacedObject>& obstacles,
                                     const Pose2& map_T_robot, const Pose2& map_T_goal,

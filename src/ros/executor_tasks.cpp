@@ -98,6 +98,7 @@ PushTaskServices ExecutorNode::taskServices(const std::string& object_id) {
   };
   services.in_the_way = inTheWay();
   services.approach = approachPlanner(planner, object_id);
+  services.touches = touchCheck(planner, object_id);
   services.clearing = clearWayServices(planner, parameters_.furnishing.robot.name, services.cases);
   services.clearing->clear = searchInBackground(planner, services.cases);
   return services;

@@ -147,6 +147,7 @@ void readPush(ParameterReader& reader, ExecutePushOptions& options) {
   reader.read("push/blind_push", options.blind_push_s);
   reader.read("push/lost_object", options.lost_object_s);
   reader.read("push/alpha", options.alpha);
+  reader.read("push/watch_ahead", options.watch_ahead);
   std::string test = toString(options.test);
   reader.read("push/test", test, {"hotelling", "plug_in"});
   options.test = test == "plug_in" ? OutcomeTest::kPlugIn : OutcomeTest::kHotelling;

@@ -23,6 +23,7 @@ static_assert(ExecutedPush::NOT_MOVED == static_cast<int>(PushOutcome::kNotMoved
 static_assert(ExecutedPush::TIMEOUT == static_cast<int>(PushOutcome::kTimeout));
 static_assert(ExecutedPush::BROKEN_OFF == static_cast<int>(PushOutcome::kBrokenOff));
 static_assert(ExecutedPush::BLOCKED == static_cast<int>(PushOutcome::kBlocked));
+static_assert(ExecutedPush::STOPPED_SHORT == static_cast<int>(PushOutcome::kStoppedShort));
 static_assert(PlanPushResult::SOLVED == static_cast<int>(PlanStatus::kSolved));
 static_assert(PlanPushResult::INVALID_REQUEST == static_cast<int>(PlanStatus::kInvalidRequest));
 static_assert(PlanPushResult::NO_CASES == static_cast<int>(PlanStatus::kNoCases));

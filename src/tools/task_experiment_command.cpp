@@ -46,6 +46,7 @@ TaskExperimentOptions commonOptions(const TaskExperimentArguments& arguments) {
                                    ? OutcomeTest::kPlugIn
                                    : OutcomeTest::kHotelling;
   options.run.task.break_off = !arguments.no_break_off;
+  options.run.task.push.watch_ahead = !arguments.no_watch_ahead;
   options.run.adapting.notice = !arguments.no_notice;
   options.run.task.rest.replan_when_rejected = arguments.replan_when_rejected;
   options.run.task.rest.repair = !arguments.no_repair;
@@ -208,6 +209,8 @@ CLI::App* addExperiment(CLI::App& app, const char* name, const char* description
   addPlannerOptions(*command, arguments->planner);
   command->add_flag("--no-break-off", arguments->no_break_off,
                     "Finish pushes whose object leaves its expected course");
+  command->add_flag("--no-watch-ahead", arguments->no_watch_ahead,
+                    "Finish pushes whose object is about to touch something");
   setWork(*command, run, arguments, work);
   return command;
 }

@@ -22,6 +22,7 @@ struct TaskExperimentArguments {
   std::string rest_rule = toString(RestRule::kLikelyEnd);
   std::string test = toString(OutcomeTest::kHotelling);
   bool no_break_off = false;
+  bool no_watch_ahead = false;
   bool no_notice = false;
   bool replan_when_rejected = false;
   bool no_repair = false;

@@ -48,6 +48,7 @@ struct ClearWayServices {
   std::function<bool(const PlacedObject&)> is_movable;  ///< Are its cases known?
   std::function<std::vector<Case>(const std::string& model)> cases;
   std::function<ApproachPlanner(const std::string& object_id)> approach;
+  std::function<TouchCheck(const std::string& object_id)> touches;
   std::function<void(const PushReport&)> on_report;  ///< Called once for each push.
 };
 

@@ -89,7 +89,9 @@ struct ExecutePushOptions {
   TubeWatchOptions tube;
   double blocked_m = 0.2;  ///< The robot is blocked if it is so far from where it should be
   double blocked_s = 0.3;  ///< during the push, for so long.
-  void validate() const;   ///< @throws InputError listing every violation.
+  /// Stop before the object touches something, where it is known what stands around (TouchCheck).
+  bool watch_ahead = true;
+  void validate() const;  ///< @throws InputError listing every violation.
 };
 
 /// True if the pushed object came to rest where it was seen, so that the push tells something about
@@ -110,6 +112,14 @@ ApproachPlanner approachPlanner(const PushPlanner& planner, const std::string& o
 /// The same with a planner that is asked for anew each time.
 ApproachPlanner approachPlanner(const PlannerSource& planner, const std::string& object_id);
 
+/// What the object would touch, map or other objects, at the first of these poses at which it
+/// touches anything; empty: nothing.
+using TouchCheck = std::function<std::string(const Observation& observation,
+                                             const std::vector<Pose2>& map_T_object)>;
+
+/// By a planner that is asked for anew each time, with all objects but `object_id` standing around.
+TouchCheck touchCheck(const PlannerSource& planner, const std::string& object_id);
+
 /// Every object of an observation but one, as obstacles.
 std::vector<PlacedObject> otherObjects(const Observation& observation, const std::string& but_id);
 
@@ -119,7 +129,8 @@ std::vector<PlacedObject> otherObjects(const Observation& observation, const std
 /// rest. That pose is the start frame, in which it follows the push's trajectory: recorded actions
 /// plus feedback on the pose. Then it stands still until the object has come to rest. If docking
 /// nudged the object, it docks anew, a limited number of times. It breaks the push off if the
-/// object leaves the case's tube (TubeWatchOptions), and fails if something holds the robot.
+/// object leaves the case's tube (TubeWatchOptions) or is about to touch something (watchAhead()),
+/// and fails if something holds the robot.
 ///
 /// It commands zero at once while the robot's pose is stale or the observation is not finite, and
 /// goes on if things are well again in time; a push that was interrupted for longer than
@@ -142,6 +153,10 @@ class ExecutePush : public Behaviour {
   std::string describe() const override;
 
   void cancel();  ///< The next tick fails with kCancelled and commands zero.
+
+  /// Stops the push before the object touches something, unless the options say otherwise; only of
+  /// pushes that replay a case. To be called before the first tick.
+  void watchAhead(TouchCheck check);
 
   enum class Phase { kApproach, kDock, kPush, kRest, kFinished };
   Phase phase() const;

@@ -126,6 +126,8 @@ struct PushTaskServices {
                                          ///< must outlive the task.
   ContinuePlan continue_plan;  ///< To be given if the planner may be replaced, e.g. by a new map.
   ApproachPlanner approach;
+  TouchCheck touches;   ///< What stops a push; by the checker if it is not given, and without one
+                        ///< nothing does.
   InTheWay in_the_way;  ///< Ids of the objects that any push of a plan hits; by the checker if it
                         ///< is not given, and without one nobody.
   CaseSource cases;     ///< Current cases of all objects.

@@ -16,12 +16,13 @@ enum class ReplanCause {
   kPushFailed,          ///< The push did not end well: object lost, no rest, robot stuck.
   kObjectMoved,         ///< The object was moved while the plan was made.
   kObstacleStuck,       ///< Another object could not be pushed out of the way.
+  kStoppedShort,        ///< The object was about to touch something during the push.
 };
 inline constexpr ReplanCause kReplanCauses[] = {
     ReplanCause::kPredictionRejected, ReplanCause::kLeftTube,     ReplanCause::kRestMissesGoal,
     ReplanCause::kRestCollides,       ReplanCause::kDeadEndAhead, ReplanCause::kEndedBesideGoal,
     ReplanCause::kApproachFailed,     ReplanCause::kPushFailed,   ReplanCause::kObjectMoved,
-    ReplanCause::kObstacleStuck,
+    ReplanCause::kObstacleStuck,      ReplanCause::kStoppedShort,
 };
 
 /// As in JSON: "prediction_rejected", "left_tube", ...

@@ -24,8 +24,9 @@ enum class PushOutcome {
   kRobotLost,       ///< The robot's own pose is stale.
   kNotMoved,        ///< The object did not move.
   kTimeout,
-  kBrokenOff,  ///< The object left the course that the case says, so that the robot stopped.
-  kBlocked,    ///< The robot did not get along as commanded: something holds it.
+  kBrokenOff,     ///< The object left the course that the case says, so that the robot stopped.
+  kBlocked,       ///< The robot did not get along as commanded: something holds it.
+  kStoppedShort,  ///< The object was about to touch something, so that the robot stopped.
 };
 const char* toString(PushOutcome outcome);
 

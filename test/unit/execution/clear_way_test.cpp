@@ -30,6 +30,7 @@ class ClearWayTest : public testing::Test {
     services.is_movable = [](const PlacedObject&) { return true; };
     services.cases = [](const std::string&) { return learntCases(); };
     services.approach = [](const std::string&) { return detour; };
+    services.touches = [](const std::string&) { return TouchCheck(); };
     services.on_report = [this](const PushReport& report) { reports.push_back(report); };
   }
 

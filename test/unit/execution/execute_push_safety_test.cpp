@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -205,6 +206,42 @@ TEST(ExecutePushSafety, breaksOffWithinTenthsOfASecondIfTheObjectIsHeld) {
     } else {
       EXPECT_GT(pushed_s, 1.9);
       EXPECT_EQ(report.outcome, PushOutcome::kNotMoved);
+    }
+  }
+}
+
+TEST(ExecutePushSafety, stopsBeforeTheObjectTouchesSomething) {
+  FakeWorld world(6);
+  ExecutePush first = firstTrial();
+  ASSERT_EQ(test::run(first, world), BehaviourStatus::kSucceeded);
+  const double whole_m = first.report()->map_T_end.x();
+  double free_m = 100.0;
+  const TouchCheck check = [&](const Observation&, const std::vector<Pose2>& map_T_object) {
+    const bool touches = std::any_of(map_T_object.begin(), map_T_object.end(),
+                                     [&](const Pose2& pose) { return pose.x() > free_m; });
+    return std::string(touches ? "cart_1" : "");
+  };
+  for (const bool on : {true, false}) {
+    ExecutePushOptions options;
+    options.watch_ahead = on;
+    world = FakeWorld(7);
+    free_m = 100.0;
+    ExecutePush push("chair_1", first.report()->recorded, test::fakeRobot(), test::detour, options);
+    push.watchAhead(check);
+    ASSERT_TRUE(test::runUntil(push, world, Phase::kPush));
+    free_m = 0.7 * whole_m;  // Somebody put a cart there.
+    test::run(push, world);
+    const PushReport& report = *push.report();
+    if (on) {
+      EXPECT_EQ(report.outcome, PushOutcome::kStoppedShort);
+      EXPECT_EQ(push.describe(), "stopped before chair_1 touched cart_1");
+      EXPECT_LT(world.object.x(), free_m);
+      EXPECT_LT(world.object_velocity.speed(), 0.02);  // It was waited for.
+      EXPECT_FALSE(isObservation(report));
+      EXPECT_FALSE(report.test.rejected);
+    } else {
+      EXPECT_EQ(report.outcome, PushOutcome::kDone);
+      EXPECT_GT(world.object.x(), free_m);
     }
   }
 }

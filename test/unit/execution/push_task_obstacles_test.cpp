@@ -38,6 +38,7 @@ class PushTaskObstaclesTest : public PushTaskTest {
     clearing.is_movable = [](const PlacedObject&) { return true; };
     clearing.cases = [](const std::string&) { return learntCases(); };
     clearing.approach = [](const std::string&) { return detour; };
+    clearing.touches = [](const std::string&) { return TouchCheck(); };
     services.clearing = clearing;
     goal.clear_obstacles = true;
     plans.answer = [](const PlanRequest& request) {

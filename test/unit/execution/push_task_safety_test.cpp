@@ -43,6 +43,23 @@ TEST_F(PushTaskSafetyTest, cancelsInEveryPhase) {
   }
 }
 
+TEST_F(PushTaskSafetyTest, plansAnewWhereAPushWasStoppedBeforeTheObjectTouchedSomething) {
+  bool is_there = false;
+  services.touches = [&](const Observation&, const std::vector<Pose2>&) {
+    return std::string(is_there ? "a visitor" : "");
+  };
+  PushTask push_task = task();
+  ASSERT_TRUE(runUntil(push_task, "push"));
+  is_there = true;
+  ASSERT_TRUE(runUntil(push_task, "look"));
+  EXPECT_EQ(push_task.describe(), "planning anew: stopped before chair_1 touched a visitor");
+  EXPECT_EQ(push_task.progress().replan_causes, (ReplanCounts{{ReplanCause::kStoppedShort, 1}}));
+  EXPECT_EQ(push_task.progress().pushes, 1);
+  is_there = false;
+  EXPECT_EQ(test::run(push_task, world, 900.0), BehaviourStatus::kSucceeded)
+      << push_task.describe();
+}
+
 TEST_F(PushTaskSafetyTest, failsWhenTheObjectIsNotInSight) {
   world.object_visible = false;
   PushTask push_task = task();
