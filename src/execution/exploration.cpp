@@ -14,6 +14,7 @@
 namespace casepush {
 namespace {
 
+constexpr double kMostSpeedShare = 0.9;  // Of what the robot can do.
 // A first trial is kept if it adds this share of the coverage that was expected of it; what is left
 // of the share after each one that does not.
 constexpr double kAcceptedShare = 0.5;
@@ -192,11 +193,13 @@ Exploration::Verdict Exploration::Data::judgeRepetition(const Trial& trial,
 
 Exploration::Exploration(ObjectModel object, RobotModel robot, ExplorationOptions options) {
   options.validate();
-  if (options.max_speed_mps > robot.limits.max_speed_mps) {
+  options.max_speed_mps =
+      std::min(options.max_speed_mps, kMostSpeedShare * robot.limits.max_speed_mps);
+  if (options.min_speed_mps > options.max_speed_mps) {
     throw InputError("exploration options",
-                     "max_speed_mps is " + std::to_string(options.max_speed_mps) +
-                         ", above what robot " + robot.name +
-                         " can do: " + std::to_string(robot.limits.max_speed_mps));
+                     "min_speed_mps is " + std::to_string(options.min_speed_mps) +
+                         ", above nine tenths of what robot " + robot.name +
+                         " can do: " + std::to_string(options.max_speed_mps));
   }
   data_ = std::make_unique<Data>(object, robot, options);
 }

@@ -5,13 +5,17 @@
 #include <utility>
 
 #include "casepush/common/check.h"
+#include "rounded_path.h"
 
 namespace casepush {
 namespace {
 
 constexpr double kLongestDockM = 0.3;
-// Velocity step that the base takes at a corner: at 0.8 m/s^2 it leaves the path by some 2 cm.
+// How far corners are cut, and the velocity step that the base takes at those that are not: either
+// leaves room to stay within 2.5 cm of the path that was checked.
+constexpr double kCutM = 0.015;
 constexpr double kCornerStepMps = 0.15;
+constexpr double kCornerStepRps = 0.4;
 // The rest of what the robot can do is left to feedback.
 constexpr double kAccelerationShare = 0.7;
 // Errors at which the reference slows down and at which it waits for the robot.
@@ -22,15 +26,16 @@ constexpr double kWaitErrorRad = 0.5;
 // Final creep, so that the reference arrives in finite time.
 constexpr double kLeastSpeedMps = 0.02;
 
-double cornerSpeed(const Pose2& before, const Pose2& corner, const Pose2& after,
-                   double cruise_mps) {
-  const Eigen::Vector2d in = corner.position() - before.position();
-  const Eigen::Vector2d out = after.position() - corner.position();
-  if (in.norm() < 1e-6 || out.norm() < 1e-6) {
-    return std::min(cruise_mps, kCornerStepMps);
-  }
-  const double step = (out.normalized() - in.normalized()).norm();
-  return std::min(cruise_mps, kCornerStepMps / std::max(step, 1e-9));
+/// A segment between two waypoints, for each metre of its length in the follower's metric.
+struct Course {
+  Eigen::Vector2d travel;
+  double turn_rad_per_m;
+};
+
+double stepSpeed(const Course& in, const Course& out) {
+  const double step = (out.travel - in.travel).norm();
+  const double turn = std::abs(out.turn_rad_per_m - in.turn_rad_per_m);
+  return std::min(kCornerStepMps / std::max(step, 1e-9), kCornerStepRps / std::max(turn, 1e-9));
 }
 
 double share(double error, double slow, double wait) {
@@ -41,25 +46,38 @@ double share(double error, double slow, double wait) {
 
 PathFollower::PathFollower(std::vector<Pose2> waypoints, const RobotLimits& limits,
                            const Speeds& speeds)
-    : limits_(limits), speeds_(speeds), waypoints_(std::move(waypoints)) {
-  CASEPUSH_CHECK(!waypoints_.empty(), "path without waypoints");
+    : limits_(limits), speeds_(speeds) {
+  CASEPUSH_CHECK(!waypoints.empty(), "path without waypoints");
+  const CornerLimits corners{kCutM, kCornerStepMps,
+                             kAccelerationShare * limits.max_acceleration_mps2};
+  RoundedPath rounded = roundCorners(waypoints, corners);
+  waypoints_ = std::move(rounded.waypoints);
   speeds_.cruise_mps = std::min(speeds.cruise_mps, limits.max_speed_mps);
   speeds_.dock_mps = std::min(speeds.dock_mps, speeds_.cruise_mps);
   // Yaw that takes as long as a metre of travel.
   const double rad_per_m = limits.max_yaw_rate_rps / speeds_.cruise_mps;
   acceleration_ = kAccelerationShare * std::min(limits.max_acceleration_mps2,
                                                 limits.max_yaw_acceleration_rps2 / rad_per_m);
+  std::vector<Course> courses;
   reach_ = {0.0};
   for (std::size_t i = 1; i < waypoints_.size(); ++i) {
-    const double turn = std::abs(yawDifference(waypoints_[i - 1], waypoints_[i]));
-    const double travel = distance(waypoints_[i - 1], waypoints_[i]);
-    reach_.push_back(reach_.back() + std::max(travel, turn / rad_per_m));
-    const bool is_last = i + 1 == waypoints_.size();
-    corner_speed_.push_back(is_last ? 0.0
-                                    : cornerSpeed(waypoints_[i - 1], waypoints_[i],
-                                                  waypoints_[i + 1], speeds_.cruise_mps));
+    const Eigen::Vector2d travel = waypoints_[i].position() - waypoints_[i - 1].position();
+    const double turn = yawDifference(waypoints_[i - 1], waypoints_[i]);
+    const double length = std::max(travel.norm(), std::abs(turn) / rad_per_m);
+    const double scale = 1.0 / std::max(length, 1e-9);
+    courses.push_back({scale * travel, scale * turn});
+    reach_.push_back(reach_.back() + length);
   }
-  corner_speed_.insert(corner_speed_.begin(), speeds_.cruise_mps);
+  corner_speed_ = {speeds_.cruise_mps};
+  for (std::size_t i = 1; i + 1 < waypoints_.size(); ++i) {
+    double speed = std::min(speeds_.cruise_mps, stepSpeed(courses[i - 1], courses[i]));
+    if (rounded.radius_m[i] > 0.0) {
+      speed = std::min(speed, std::sqrt(corners.acceleration_mps2 * rounded.radius_m[i]) /
+                                  std::max(courses[i].travel.norm(), 1e-9));
+    }
+    corner_speed_.push_back(speed);
+  }
+  corner_speed_.push_back(0.0);
   if (waypoints_.size() > 1) {
     dock_length_ = std::min(kLongestDockM, total() - reach_[reach_.size() - 2]);
   }

@@ -24,11 +24,12 @@ const char* toString(CoverageStrategy strategy);
 CoverageStrategy coverageStrategyFromString(const std::string& name);
 
 struct ExplorationOptions {
-  int cases = 14;
+  int cases = 20;  ///< Paper: 5 to 14.
   int practices = 20;  ///< Pushes per case, the first one included.
   CoverageStrategy coverage = CoverageStrategy::kSpread;
   double min_speed_mps = 0.15;
-  double max_speed_mps = 0.4;
+  /// At most nine tenths of what the robot can do: it must be able to catch up.
+  double max_speed_mps = 0.45;
   double min_duration_s = 1.0;  ///< Paper: 1 to 3 s.
   double max_duration_s = 3.0;
   double start_gap_m = 0.03;         ///< Between robot and object at the start of a push.
@@ -74,6 +75,7 @@ struct ExplorationQuality {
 /// A robot that drives gives its ground and the object's pose to next(), and its ground to keep().
 class Exploration {
  public:
+  /// @throws InputError from the options, or if the robot is too slow for `min_speed_mps`.
   Exploration(ObjectModel object, RobotModel robot, ExplorationOptions options);
   ~Exploration();
 

@@ -344,8 +344,19 @@ TEST(Exploration, refusesBadOptions) {
                  "must be in [0.15, 5]");
   }
   ExplorationOptions fast;
+  fast.min_speed_mps = 0.46;
   fast.max_speed_mps = 0.9;
   EXPECT_THROW(Exploration(test::fakeObject(), test::fakeRobot(), fast), InputError);
+}
+
+TEST(Exploration, leavesTheRobotSpeedToCatchUp) {
+  ExplorationOptions options;
+  options.max_speed_mps = 5.0;
+  for (int seed = 1; seed <= 40; ++seed) {
+    options.seed = seed;
+    const Exploration exploration(test::fakeObject(), test::fakeRobot(), options);
+    EXPECT_LE(exploration.next()->configuration.speed_mps, 0.45);
+  }
 }
 
 }  // namespace
