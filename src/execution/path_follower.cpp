@@ -14,10 +14,11 @@ constexpr double kLongestDockM = 0.3;
 // How far corners are cut, and the velocity step that the base takes at those that are not: either
 // leaves room to stay within 2.5 cm of the path that was checked.
 constexpr double kCutM = 0.015;
+constexpr double kEndCutM = 0.005;  // Beside an object.
 constexpr double kCornerStepMps = 0.15;
 constexpr double kCornerStepRps = 0.4;
 // The rest of what the robot can do is left to feedback.
-constexpr double kAccelerationShare = 0.7;
+constexpr double kAccelerationShare = 0.85;
 // Errors at which the reference slows down and at which it waits for the robot.
 constexpr double kSlowErrorM = 0.05;
 constexpr double kWaitErrorM = 0.12;
@@ -31,6 +32,12 @@ struct Course {
   Eigen::Vector2d travel;
   double turn_rad_per_m;
 };
+
+double mostAcceleration(const Course& course, const RobotLimits& limits) {
+  const double turn = std::abs(course.turn_rad_per_m);
+  return std::min(limits.max_acceleration_mps2 / std::max(course.travel.norm(), 1e-9),
+                  limits.max_yaw_acceleration_rps2 / std::max(turn, 1e-9));
+}
 
 double stepSpeed(const Course& in, const Course& out) {
   const double step = (out.travel - in.travel).norm();
@@ -48,7 +55,7 @@ PathFollower::PathFollower(std::vector<Pose2> waypoints, const RobotLimits& limi
                            const Speeds& speeds)
     : limits_(limits), speeds_(speeds) {
   CASEPUSH_CHECK(!waypoints.empty(), "path without waypoints");
-  const CornerLimits corners{kCutM, kCornerStepMps,
+  const CornerLimits corners{kCutM, kEndCutM, kCornerStepMps,
                              kAccelerationShare * limits.max_acceleration_mps2};
   RoundedPath rounded = roundCorners(waypoints, corners);
   waypoints_ = std::move(rounded.waypoints);
@@ -56,8 +63,6 @@ PathFollower::PathFollower(std::vector<Pose2> waypoints, const RobotLimits& limi
   speeds_.dock_mps = std::min(speeds.dock_mps, speeds_.cruise_mps);
   // Yaw that takes as long as a metre of travel.
   const double rad_per_m = limits.max_yaw_rate_rps / speeds_.cruise_mps;
-  acceleration_ = kAccelerationShare * std::min(limits.max_acceleration_mps2,
-                                                limits.max_yaw_acceleration_rps2 / rad_per_m);
   std::vector<Course> courses;
   reach_ = {0.0};
   for (std::size_t i = 1; i < waypoints_.size(); ++i) {
@@ -66,6 +71,7 @@ PathFollower::PathFollower(std::vector<Pose2> waypoints, const RobotLimits& limi
     const double length = std::max(travel.norm(), std::abs(turn) / rad_per_m);
     const double scale = 1.0 / std::max(length, 1e-9);
     courses.push_back({scale * travel, scale * turn});
+    acceleration_.push_back(kAccelerationShare * mostAcceleration(courses.back(), limits));
     reach_.push_back(reach_.back() + length);
   }
   corner_speed_ = {speeds_.cruise_mps};
@@ -81,29 +87,32 @@ PathFollower::PathFollower(std::vector<Pose2> waypoints, const RobotLimits& limi
   if (waypoints_.size() > 1) {
     dock_length_ = std::min(kLongestDockM, total() - reach_[reach_.size() - 2]);
   }
+  for (std::size_t i = waypoints_.size() - 1; i > 0; --i) {
+    corner_speed_[i - 1] = std::min(corner_speed_[i - 1], speedBefore(i, reach_[i - 1]));
+  }
 }
 
-double PathFollower::allowedSpeed() const {
-  double speed = docking() ? speeds_.dock_mps : speeds_.cruise_mps;
-  const auto slowDown = [this, &speed](double at, double speed_there) {
-    if (at >= travelled_) {
-      speed = std::min(
-          speed, std::sqrt(speed_there * speed_there + 2.0 * acceleration_ * (at - travelled_)));
-    }
+std::size_t PathFollower::nextWaypoint() const {
+  const auto next = std::upper_bound(reach_.begin() + 1, reach_.end() - 1, travelled_);
+  return static_cast<std::size_t>(next - reach_.begin());
+}
+
+double PathFollower::speedBefore(std::size_t waypoint, double travelled) const {
+  const auto braking = [&](double speed_there, double at) {
+    return std::sqrt(speed_there * speed_there +
+                     2.0 * acceleration_[waypoint - 1] * std::max(0.0, at - travelled));
   };
-  for (std::size_t i = 1; i < reach_.size(); ++i) {
-    slowDown(reach_[i], corner_speed_[i]);
-  }
-  slowDown(total() - dock_length_, speeds_.dock_mps);
-  return std::max(speed, kLeastSpeedMps);
+  const double speed =
+      std::min(speeds_.cruise_mps, braking(corner_speed_[waypoint], reach_[waypoint]));
+  if (waypoint + 1 < waypoints_.size()) return speed;
+  return std::min(speed, braking(speeds_.dock_mps, total() - dock_length_));
 }
 
 Reference PathFollower::reference() const {
   if (waypoints_.size() == 1 || atEnd()) {
     return {waypoints_.back(), Twist2{}};
   }
-  const auto next = std::upper_bound(reach_.begin() + 1, reach_.end() - 1, travelled_);
-  const auto i = static_cast<std::size_t>(next - reach_.begin());
+  const std::size_t i = nextWaypoint();
   const Pose2& from = waypoints_[i - 1];
   const Pose2& to = waypoints_[i];
   const double length = std::max(reach_[i] - reach_[i - 1], 1e-9);
@@ -123,7 +132,11 @@ Reference PathFollower::advance(double dt_s, const Pose2& map_T_robot) {
   const double keeps_up =
       std::min(share(distance(map_T_robot, here), kSlowErrorM, kWaitErrorM),
                share(std::abs(yawDifference(map_T_robot, here)), kSlowErrorRad, kWaitErrorRad));
-  speed_ = std::min(speed_ + acceleration_ * dt_s, keeps_up * allowedSpeed());
+  if (waypoints_.size() > 1) {
+    const std::size_t next = nextWaypoint();
+    const double allowed = std::max(kLeastSpeedMps, speedBefore(next, travelled_));
+    speed_ = std::min(speed_ + acceleration_[next - 1] * dt_s, keeps_up * allowed);
+  }
   travelled_ = std::min(total(), travelled_ + speed_ * dt_s);
   return reference();
 }

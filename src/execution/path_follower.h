@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "casepush/model/robot_model.h"
@@ -27,15 +28,17 @@ class PathFollower {
  private:
   // Lengths are metres of travel; where the robot turns a lot, as many as take the same time.
   double total() const { return reach_.back(); }
-  double allowedSpeed() const;
+  std::size_t nextWaypoint() const;
+  /// So that it can brake for what comes after `travelled`, which is before the waypoint.
+  double speedBefore(std::size_t waypoint, double travelled) const;
   Reference reference() const;
 
   RobotLimits limits_;
   Speeds speeds_;
-  double acceleration_;
   std::vector<Pose2> waypoints_;
   std::vector<double> reach_;         ///< Length from the start to each waypoint.
   std::vector<double> corner_speed_;  ///< Highest speed at each waypoint.
+  std::vector<double> acceleration_;  ///< Highest one before each waypoint but the first.
   double dock_length_ = 0.0;
   double travelled_ = 0.0;
   double speed_ = 0.0;

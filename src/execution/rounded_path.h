@@ -17,6 +17,7 @@ struct RoundedPath {
 /// What the robot can do at a corner.
 struct CornerLimits {
   double cut_m;              ///< How far from the corner an arc may pass.
+  double end_cut_m;          ///< The same at the first and the last corner.
   double step_mps;           ///< Change of velocity at a corner that is left as it is.
   double acceleration_mps2;  ///< Towards the centre of an arc.
 };

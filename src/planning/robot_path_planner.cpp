@@ -9,6 +9,7 @@
 #include "casepush/common/input_error.h"
 #include "clearance_grid.h"
 #include "grid_search.h"
+#include "short_way.h"
 #include "straight_motion.h"
 
 namespace casepush {
@@ -166,19 +167,27 @@ class Undocking {
   std::optional<Contact> block_;
 };
 
+RobotPath alongWay(std::vector<Pose2> waypoints) {
+  RobotPath path;
+  path.found = true;
+  path.waypoints = std::move(waypoints);
+  for (std::size_t i = 1; i < path.waypoints.size(); ++i) {
+    path.length_m += distance(path.waypoints[i - 1], path.waypoints[i]);
+  }
+  return path;
+}
+
 /// Undocked, pre-dock and what lies between them.
 RobotPath assemble(const Pose2& start, const Pose2& goal,
                    const std::vector<Eigen::Vector2d>& travel) {
-  RobotPath path;
-  path.found = true;
+  std::vector<Pose2> waypoints{start};
   double travel_m = 0.0;
   for (std::size_t i = 1; i < travel.size(); ++i) travel_m += (travel[i] - travel[i - 1]).norm();
-  path.waypoints.push_back(start);
-  const auto append = [&path](const Pose2& pose) {
-    const Pose2& last = path.waypoints.back();
+  const auto append = [&waypoints](const Pose2& pose) {
+    const Pose2& last = waypoints.back();
     constexpr double kSame = 1e-9;
     if (distance(last, pose) < kSame && std::abs(yawDifference(last, pose)) < kSame) return;
-    path.waypoints.push_back(pose);
+    waypoints.push_back(pose);
   };
   double done_m = 0.0;
   for (std::size_t i = 0; i < travel.size(); ++i) {
@@ -190,15 +199,12 @@ RobotPath assemble(const Pose2& start, const Pose2& goal,
   }
   append(goal);
   // The goal may be the same up to rounding, yet it is promised exactly.
-  if (path.waypoints.size() == 1) {
-    path.waypoints.push_back(goal);
+  if (waypoints.size() == 1) {
+    waypoints.push_back(goal);
   } else {
-    path.waypoints.back() = goal;
+    waypoints.back() = goal;
   }
-  for (std::size_t i = 1; i < path.waypoints.size(); ++i) {
-    path.length_m += distance(path.waypoints[i - 1], path.waypoints[i]);
-  }
-  return path;
+  return alongWay(std::move(waypoints));
 }
 
 /// The robot stands where it can travel.
@@ -346,10 +352,10 @@ RobotPath RobotPathPlanner::planWith(const CollisionChecker& checker, const Pose
     if (!tolerated)
       return failure("dock pose blocked by " + describe(contact, checker.obstacles()));
   }
-  const bool stands_apart = !checker.collides(*prepared.docking, map_T_robot);
-  if (stands_apart && distance(map_T_robot, goal) < kDirect_m) {
-    const StraightMotion direct(checker, *prepared.docking, {checker, *prepared.docking, goal});
-    if (!direct.firstBlock(map_T_robot, goal)) return assemble(map_T_robot, goal, {});
+  if (distance(map_T_robot, goal) < kDirect_m) {
+    std::vector<Pose2> way =
+        shortWay(checker, *prepared.docking, map_T_robot, goal, dock_direction_rad);
+    if (!way.empty()) return alongWay(std::move(way));
   }
 
   ClearanceGrid grid = *prepared.grid;

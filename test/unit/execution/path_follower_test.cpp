@@ -76,6 +76,28 @@ TEST(PathFollower, isFastFarAwayAndSlowAtTheEnd) {
   EXPECT_LE(result.dock_speed_mps, 0.16);
 }
 
+TEST(PathFollower, hardlySlowsDownAroundAnObject) {
+  std::vector<Pose2> around;
+  double length_m = 0.0;
+  for (int i = 0; i <= 9; ++i) {
+    const double angle = i * M_PI / 6.0;
+    around.emplace_back(0.8 * std::cos(angle), 0.8 * std::sin(angle), 0.1 * i);
+    if (i > 0) length_m += distance(around[i - 1], around[i]);
+  }
+  const Drive result = drive(around, {0.5, 0.5});
+  EXPECT_TRUE(result.arrived);
+  EXPECT_LT(result.worst_m, 0.025);
+  // Half a second to get to speed, half a second to brake, some tenths to settle.
+  EXPECT_LT(result.duration_s, length_m / 0.5 + 1.6);
+}
+
+TEST(PathFollower, turnsWhileItBacksOff) {
+  const Drive alone = drive({Pose2(0, 0, 0), Pose2(0, 0, 1)}, {0.5, 0.5});
+  const Drive both = drive({Pose2(0, 0, 0), Pose2(-0.1, 0.05, 1)}, {0.5, 0.5});
+  EXPECT_TRUE(both.arrived);
+  EXPECT_LT(both.duration_s, alone.duration_s + 0.1);
+}
+
 TEST(PathFollower, turnsOnTheSpotWithinTheYawRate) {
   const Drive result = drive({Pose2(0, 0, 0), Pose2(0, 0, 3.0)});
   EXPECT_TRUE(result.arrived);
