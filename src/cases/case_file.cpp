@@ -153,7 +153,7 @@ void configure(SqliteDatabase& database, CaseBase::Access access) {
   if (!database.isWritable()) {
     throw SqliteError(database.file(), SQLITE_READONLY, "");
   }
-  database.execute("PRAGMA journal_mode = WAL");
+  database.useWriteAheadLog();
   // Each commit reaches the disk. A push takes the robot half a minute and this a fraction of a
   // millisecond to some milliseconds; a robot's battery does die.
   database.execute("PRAGMA synchronous = FULL");

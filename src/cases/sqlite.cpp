@@ -110,6 +110,22 @@ void SqliteDatabase::execute(const std::string& sql) {
   }
 }
 
+// SQLite itself does not wait for other programs while it changes the mode.
+void SqliteDatabase::useWriteAheadLog() {
+  constexpr int kPauseMs = 5;
+  const auto change = [this] {
+    return sqlite3_exec(handle_.get(), "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+  };
+  int code = change();
+  for (int waited_ms = 0; code == SQLITE_BUSY && waited_ms < kBusyTimeoutMs;) {
+    waited_ms += sqlite3_sleep(kPauseMs);
+    code = change();
+  }
+  if (code != SQLITE_OK) {
+    fail(code);
+  }
+}
+
 std::int64_t SqliteDatabase::integer(const std::string& sql) {
   SqliteStatement statement(*this, sql);
   CASEPUSH_CHECK(statement.step(), sql);

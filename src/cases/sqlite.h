@@ -37,6 +37,7 @@ class SqliteDatabase {
   SqliteDatabase(const std::filesystem::path& file, Mode mode);
 
   void execute(const std::string& sql);
+  void useWriteAheadLog();
   std::int64_t integer(const std::string& sql);  ///< The first column of the only row.
   std::string text(const std::string& sql);      ///< As integer().
   std::int64_t lastInsertId() const;

@@ -88,5 +88,29 @@ TEST(ApproachPath, goesAroundTheObjectAndRefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(planner->approachPath(chair, {}, Pose2(kNan, 5, 0), Pose2(4.2, 5, 0), 0.0).found);
 }
 
+TEST(PushPlannerTouched, tellsWhatAnObjectWouldTouch) {
+  const auto planner = plannerFor(furnishedRoom(), quick());
+  const auto map = mapOf(furnishedRoom());
+  const CollisionChecker checker(*map);
+  const auto footprint = checker.footprint(testChair().solid);
+  Random random(5);
+  int touching = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Pose2 free = randomFreePose(checker, *footprint, &random);
+    const Pose2 any = free * Pose2(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0.3);
+    const std::string touched = planner->touched("chair", {free, any, free}, {});
+    EXPECT_EQ(touched.empty(), !checker.collides(*footprint, any));
+    if (!touched.empty()) {
+      EXPECT_EQ(touched.rfind("the ", 0), 0u) << touched;
+      ++touching;
+    }
+    EXPECT_EQ(planner->touched("chair", {free}, {{"chair_2", "chair", free}}).rfind("chair_2", 0),
+              0u);
+  }
+  EXPECT_GT(touching, 10);
+  EXPECT_EQ(planner->touched("chair", {}, {}), "");
+  EXPECT_EQ(planner->touched("unknown", {Pose2()}, {}), "");
+}
+
 }  // namespace
 }  // namespace casepush

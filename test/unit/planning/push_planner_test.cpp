@@ -215,30 +215,6 @@ TEST(PushPlanner, saysWhenNothingLeadsToTheGoal) {
       << result.explanation;
 }
 
-TEST(PushPlanner, tellsWhatAnObjectWouldTouch) {
-  const auto planner = plannerFor(furnishedRoom(), quick());
-  const auto map = mapOf(furnishedRoom());
-  const CollisionChecker checker(*map);
-  const auto footprint = checker.footprint(testChair().solid);
-  Random random(5);
-  int touching = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Pose2 free = randomFreePose(checker, *footprint, &random);
-    const Pose2 any = free * Pose2(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0.3);
-    const std::string touched = planner->touched("chair", {free, any, free}, {});
-    EXPECT_EQ(touched.empty(), !checker.collides(*footprint, any));
-    if (!touched.empty()) {
-      EXPECT_EQ(touched.rfind("the ", 0), 0u) << touched;
-      ++touching;
-    }
-    EXPECT_EQ(planner->touched("chair", {free}, {{"chair_2", "chair", free}}).rfind("chair_2", 0),
-              0u);
-  }
-  EXPECT_GT(touching, 10);
-  EXPECT_EQ(planner->touched("chair", {}, {}), "");
-  EXPECT_EQ(planner->touched("unknown", {Pose2()}, {}), "");
-}
-
 TEST(PushPlanner, letsAnObjectAtAWallAway) {
   const auto planner = plannerFor(emptyRoom(), quick());
   // The chair overlaps the wall's cells by 5 mm; one case takes it along the wall and away from it.

@@ -67,7 +67,7 @@ TEST_F(ShortWayTest, leavesTheObjectsSideBeforeItTurnsAndDocksStraight) {
     const double touching_m = depth(*docking_, start);
     for (int k = 0; k <= 50; ++k) {
       const Pose2 pose = between(way[0], way[1], k / 50.0);
-      const double most_m = k <= 15 ? touching_m : depth(*docking_, goal);
+      const double most_m = k <= 16 ? touching_m : depth(*docking_, goal);
       EXPECT_LE(depth(*docking_, pose), most_m + 1e-3) << "push " << i << ", " << k / 50.0;
     }
     if (way.size() == 2) continue;
