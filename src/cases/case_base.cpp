@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "atomic_file.h"
 #include "case_base_data.h"
 #include "case_file.h"
 #include "case_yaml.h"
 #include "casepush/cases/case_tube.h"
+#include "casepush/common/atomic_file.h"
 #include "casepush/common/input_error.h"
 
 namespace casepush {

@@ -1,10 +1,9 @@
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
+#include "casepush/common/atomic_file.h"
 #include "casepush/common/check.h"
-#include "casepush/common/input_error.h"
 #include "casepush/model/world_model.h"
 
 namespace casepush {
@@ -126,21 +125,7 @@ std::string worldYaml(const WorldModel& world) {
 }
 
 void saveWorldModel(const WorldModel& world, const std::filesystem::path& yaml_file) {
-  std::filesystem::path draft = yaml_file;
-  draft += ".part";
-  std::ofstream stream(draft);
-  stream << worldYaml(world);
-  stream.close();
-  std::error_code error;
-  if (stream) {
-    std::filesystem::rename(draft, yaml_file, error);
-    if (!error) {
-      return;
-    }
-  }
-  std::error_code ignored;
-  std::filesystem::remove(draft, ignored);
-  throw InputError(yaml_file.string(), "cannot be written; is the folder there?");
+  writeFileAtomically(yaml_file, worldYaml(world));
 }
 
 }  // namespace casepush

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "casepush/common/atomic_file.h"
 #include "casepush/common/check.h"
 #include "casepush/common/input_error.h"
 #include "map_bounds.h"
@@ -107,22 +108,13 @@ std::vector<std::int8_t> Map::toBinary() const {
 }
 
 void Map::save(const std::filesystem::path& file) const {
-  // Written beside and renamed, so that a failure leaves an older file as it was.
-  std::filesystem::path draft = file;
-  draft += ".part";
-  std::ofstream stream(draft, std::ios::binary);
+  std::ostringstream stream;
   // OctoMap's own writeBinary() chats on stderr.
   const octomap::OcTree tree = compact(*tree_);
   stream << "# Octomap OcTree binary file\nid OcTree\nsize " << tree.size() << "\nres "
          << tree.getResolution() << "\ndata\n";
-  const bool good = stream && (empty() || tree.writeBinaryData(stream)) && stream.flush();
-  stream.close();
-  std::error_code error;
-  if (good) std::filesystem::rename(draft, file, error);
-  if (good && !error) return;
-  std::error_code ignored;
-  std::filesystem::remove(draft, ignored);
-  throw InputError(file.string(), "the map cannot be written there");
+  if (!empty()) tree.writeBinaryData(stream);
+  writeFileAtomically(file, stream.str());
 }
 
 void Map::addSurvey(const std::vector<Eigen::Vector3f>& map_points) {

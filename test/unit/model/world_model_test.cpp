@@ -270,7 +270,7 @@ TEST_F(SaveWorldModel, givesBackOddNamesNumbersAndAngles) {
 TEST_F(SaveWorldModel, saysIfItCannotWrite) {
   const std::filesystem::path file = folder_.path() / "absent" / "room.yaml";
   EXPECT_EQ(inputErrorText([&] { saveWorldModel(load(smallWorldYaml()), file); }),
-            file.string() + ": cannot be written; is the folder there?");
+            file.string() + ": cannot be written: No such file or directory");
 }
 
 }  // namespace
