@@ -60,9 +60,11 @@ std::string rounded(double value, int digits) {
 }
 
 std::string describe(const Pose2& pose) {
+  // Whatever is out there: with all digits it would fill a line.
+  const bool is_far = std::max(std::abs(pose.x()), std::abs(pose.y())) >= 1e6;
   char text[64];
-  std::snprintf(text, sizeof(text), "(%.2f, %.2f, %.0f deg)", pose.x(), pose.y(),
-                pose.yaw() * 180.0 / kPi);
+  std::snprintf(text, sizeof(text), is_far ? "(%.3g, %.3g, %.0f deg)" : "(%.2f, %.2f, %.0f deg)",
+                pose.x(), pose.y(), pose.yaw() * 180.0 / kPi);
   return text;
 }
 

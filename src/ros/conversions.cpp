@@ -257,10 +257,11 @@ AprilTagDetectionArray toMessage(const TagFrame& frame) {
   return message;
 }
 
-TagFrame fromMessage(const AprilTagDetectionArray& message) {
+TagFrame fromMessage(const AprilTagDetectionArray& message, std::string* left_out) {
   TagFrame frame;
   frame.camera = cameraOfFrame(message.header.frame_id);
   frame.stamp_s = message.header.stamp.toSec();
+  if (left_out != nullptr) left_out->clear();
   for (const AprilTagDetection& tag : message.detections) {
     if (tag.id.size() != 1 || tag.size.size() != 1) {
       continue;
@@ -268,7 +269,15 @@ TagFrame fromMessage(const AprilTagDetectionArray& message) {
     TagDetection detection;
     detection.id = tag.id.front();
     detection.size_m = tag.size.front();
-    detection.camera_T_tag = fromMessage(tag.pose.pose.pose);
+    try {
+      detection.camera_T_tag = fromMessage(tag.pose.pose.pose);
+    } catch (const InputError& error) {
+      if (left_out != nullptr) {
+        *left_out += (left_out->empty() ? "tag " : "; tag ") + std::to_string(detection.id) + ": " +
+                     error.what();
+      }
+      continue;
+    }
     detection.covariance = rowMajor6(tag.pose.pose.covariance);
     frame.detections.push_back(detection);
   }

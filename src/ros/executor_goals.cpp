@@ -52,8 +52,6 @@ void beginOrReject(GoalHandle& goal, const std::string& busy, const Begin& begin
     }
   } catch (const InputError& error) {
     reject<Result>(goal, Result::INVALID_GOAL, error.what());
-  } catch (const tf2::TransformException& error) {
-    reject<Result>(goal, Result::INVALID_GOAL, error.what());
   }
 }
 
@@ -122,6 +120,13 @@ ExecutePush ExecutorNode::makePush(const ExecutePushGoal& goal) const {
   if (found == cases_->end()) {
     throw InputError("goal: case_id",
                      "there is no case " + std::to_string(goal.case_id) + " (topic cases)");
+  }
+  const std::string& model = parameters_.furnishing.instance(goal.object_id)->model.name;
+  if (!isFor(*found, model, robot.name)) {
+    throw InputError("goal: case_id", "case " + std::to_string(goal.case_id) + " is of " +
+                                          found->object + " pushed by " + found->robot + ", but " +
+                                          goal.object_id + " is a " + model + " and the robot is " +
+                                          robot.name);
   }
   return ExecutePush(goal.object_id, *found, robot, approach(goal.object_id),
                      parameters_.task.push);

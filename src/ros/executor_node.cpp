@@ -2,7 +2,6 @@
 
 #include <geometry_msgs/Twist.h>
 #include <std_msgs/Empty.h>
-#include <tf2/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -93,6 +92,9 @@ void ExecutorNode::onCases(const PushCaseArray& message) {
 
 void ExecutorNode::onObjects(const PushableObjectArray& message) {
   try {
+    if (isAhead(message.header.stamp.toSec())) {
+      throw InputError("topic objects", "is stamped ahead of the clock");
+    }
     objects_ = fromMessage(message);
     objects_stamp_s_ = message.header.stamp.toSec();
   } catch (const InputError& error) {
@@ -144,8 +146,8 @@ std::string ExecutorNode::whatIsMissing() const {
   }
   try {
     robotPose(buffer_);
-  } catch (const std::exception& error) {
-    return std::string("the robot's pose is unknown (TF map -> base_link): ") + error.what();
+  } catch (const InputError& error) {
+    return error.what();
   }
   if (ros::Time::now().toSec() - objects_stamp_s_ > parameters_.lost_objects_s) {
     return "there are no tracked poses (topic objects): is perception gone?";
@@ -174,7 +176,8 @@ void ExecutorNode::end(ActivityEnd how, const std::string& explanation) {
   finish();
 }
 
-std::optional<Observation> ExecutorNode::observe(double now_s) const {
+std::optional<Observation> ExecutorNode::observe(double now_s) {
+  const std::string ahead = forgetIfAhead(buffer_);
   Observation observation;
   observation.stamp_s = now_s;
   try {
@@ -184,7 +187,8 @@ std::optional<Observation> ExecutorNode::observe(double now_s) const {
     observation.robot_stamp_s = std::min(robot.stamp_s, odometry_.header.stamp.toSec());
     observation.robot_twist = fromMessage(odometry_.twist.twist);
   } catch (const std::exception& error) {
-    ROS_WARN_THROTTLE(1.0, "no observation: %s", error.what());
+    blind_reason_ = ahead.empty() ? error.what() : ahead;
+    ROS_WARN_THROTTLE(1.0, "no observation: %s", blind_reason_.c_str());
     return std::nullopt;
   }
   observation.objects = objects_;
@@ -203,7 +207,7 @@ void ExecutorNode::tick(double now_s) {
   if (!observation) {
     command_.publish(geometry_msgs::Twist());
     if (blind_s > kBlindS && end_ == ActivityEnd::kFinished) {
-      end(ActivityEnd::kStopped, "neither pose nor speed of the robot are known: see the warnings");
+      end(ActivityEnd::kStopped, "neither pose nor speed of the robot are known: " + blind_reason_);
     }
     return;
   }

@@ -71,11 +71,15 @@ RearrangeRequest ExecutorNode::rearrangeRequest(const RearrangeGoal& goal) const
   RearrangeRequest request;
   request.time_limit_s = timeLimit(goal.time_limit, request.time_limit_s, "goal: time_limit");
   for (const ObjectGoal& each : goal.goals) {
-    PushTaskGoal task = placeOf(each, buffer_, parameters_.furnishing);
+    try {
+      request.tasks.push_back(placeOf(each, buffer_, parameters_.furnishing));
+    } catch (const InputError& error) {
+      throw InputError(each.object_id, error.what());
+    }
+    PushTaskGoal& task = request.tasks.back();
     task.adapt = goal.adapt;
     task.clear_obstacles = goal.clear_obstacles;
     task.seed = goal.seed;
-    request.tasks.push_back(std::move(task));
   }
   return request;
 }

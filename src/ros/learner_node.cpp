@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "casepush/common/input_error.h"
@@ -82,11 +83,13 @@ LearnerNode::LearnerNode(LearnerNodeParameters parameters, ros::NodeHandle handl
 
 ExplorationOptions LearnerNode::explorationOptions(const LearnObjectGoal& goal) const {
   ExplorationOptions options = parameters_.exploration;
+  // Out of bounds all the same.
+  constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
   if (goal.cases > 0) {
-    options.cases = static_cast<int>(goal.cases);
+    options.cases = static_cast<int>(std::min(goal.cases, kMost));
   }
   if (goal.practices > 0) {
-    options.practices = static_cast<int>(goal.practices);
+    options.practices = static_cast<int>(std::min(goal.practices, kMost));
   }
   options.seed = goal.seed;
   options.validate();

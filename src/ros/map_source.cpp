@@ -48,6 +48,12 @@ MapSource::MapSource(const MapParameters& parameters, const Furnishing& furnishi
 }
 
 std::string MapSource::missing() const {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!refused_.empty()) {
+      return "refused: " + refused_;
+    }
+  }
   switch (parameters_.source) {
     case MapOrigin::kSurvey:
       return "topic survey; or give parameter map_file or map_source";
@@ -58,6 +64,13 @@ std::string MapSource::missing() const {
   }
 }
 
+void MapSource::refuse(const std::string& why) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  refused_ = why;
+  ROS_ERROR("map refused%s: %s", map_ == nullptr ? "" : ", the one before stays in use",
+            why.c_str());
+}
+
 void MapSource::onSurvey(const sensor_msgs::PointCloud2& message) {
   try {
     checkFrame("survey", message.header.frame_id);
@@ -65,7 +78,7 @@ void MapSource::onSurvey(const sensor_msgs::PointCloud2& message) {
     map.addSurvey(fromMessage(message));
     start(std::move(map));
   } catch (const InputError& error) {
-    ROS_ERROR("no map: %s", error.what());
+    refuse(error.what());
   }
 }
 
@@ -75,7 +88,7 @@ void MapSource::onGrid(const nav_msgs::OccupancyGrid& message) {
     start(
         mapOf(fromMessage(message), parameters_.occupancy, parameters_.resolution(), "topic map"));
   } catch (const InputError& error) {
-    ROS_ERROR("no map: %s", error.what());
+    refuse(error.what());
   }
 }
 
@@ -93,6 +106,7 @@ void MapSource::set(Map map) {
   markers_.publish(mapMarkers(*shared));
   const std::lock_guard<std::mutex> lock(mutex_);
   map_ = shared;
+  refused_.clear();
 }
 
 bool MapSource::onSave(SaveMap::Request& request, SaveMap::Response& response) {
@@ -119,6 +133,10 @@ bool MapSource::onSave(SaveMap::Request& request, SaveMap::Response& response) {
 void MapSource::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (live_ != nullptr) {
     live_->report(status);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!refused_.empty()) {
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, "map refused: " + refused_);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "casepush/ros/markers.h"
 #include "casepush/ros/names.h"
 #include "casepush/ros/sim_node.h"
+#include "casepush/ros/transforms.h"
 
 namespace casepush {
 namespace {
@@ -79,6 +80,10 @@ double PerceptionNode::now() {
     last_markers_s_ = -1e9;
   }
   last_now_s_ = now_s;
+  const std::string ahead = forgetIfAhead(buffer_);
+  if (!ahead.empty()) {
+    ROS_WARN_THROTTLE(1.0, "%s", ahead.c_str());
+  }
   return now_s;
 }
 
@@ -87,11 +92,18 @@ void PerceptionNode::onTags(const AprilTagDetectionArray& message) {
   now();
   ++frames_;
   try {
+    if (isAhead(stamp.toSec())) {
+      throw InputError(message.header.frame_id, "is stamped ahead of the clock");
+    }
     const Pose2 map_T_robot = planarPose(
         fromMessage(buffer_.lookupTransform(names::kMapFrame, names::kBaseFrame, stamp).transform));
     const Eigen::Isometry3d base_T_camera = fromMessage(
         buffer_.lookupTransform(names::kBaseFrame, message.header.frame_id, stamp).transform);
-    tracker_.addFrame(fromMessage(message), map_T_robot, base_T_camera);
+    std::string left_out;
+    tracker_.addFrame(fromMessage(message, &left_out), map_T_robot, base_T_camera);
+    if (!left_out.empty()) {
+      ROS_WARN_THROTTLE(1.0, "tag_detections: left out: %s", left_out.c_str());
+    }
   } catch (const tf2::TransformException& error) {
     ++bad_frames_;
     ROS_WARN_THROTTLE(1.0, "tag_detections: image left out: %s", error.what());

@@ -1,7 +1,5 @@
 #include "casepush/ros/planner_node.h"
 
-#include <tf2/exceptions.h>
-
 #include <utility>
 
 #include "casepush/cases/shortened_case.h"
@@ -82,6 +80,10 @@ PlanRequest PlannerNode::request(const PlanPushGoal& goal) {
       complete.objects.push_back(
           toMessage(PlacedObject{state.id, state.model, state.map_T_object}));
     }
+    const std::string ahead = forgetIfAhead(buffer_);
+    if (!ahead.empty()) {
+      throw InputError("start", ahead);
+    }
     complete.robot = toMessage(robotPose(buffer_).map_T_robot);
   }
   return fromMessage(complete);
@@ -122,8 +124,6 @@ void PlannerNode::onGoal(const PlanPushGoalConstPtr& goal) {
     result = plan(*goal);
   } catch (const InputError& error) {
     result = invalid(error.what());
-  } catch (const tf2::TransformException& error) {
-    result = invalid(error.what());
   }
   ROS_INFO("plan for %s: %s; %s", goal->object_id.c_str(), toString(result.status),
            result.explanation.c_str());
@@ -153,6 +153,10 @@ void PlannerNode::show(const PlanResult& result, const std::vector<Case>& cases)
 }
 
 void PlannerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::string ahead = forgetIfAhead(buffer_);  // A live map needs transforms, too.
+  if (!ahead.empty()) {
+    ROS_WARN("%s", ahead.c_str());
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   if (planner_.get() == nullptr) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no map yet");

@@ -1,9 +1,12 @@
 #include "casepush/ros/push_conversions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "casepush/common/input_error.h"
+#include "casepush/common/violations.h"
 #include "casepush/planning/risk_options.h"
 #include "casepush/ros/conversions.h"
 #include "casepush/ros/names.h"
@@ -60,6 +63,9 @@ double probability(double value, const char* where) {
   return value;
 }
 
+/// Somewhat above pi, which a person rounds.
+constexpr double kAnyYaw_rad = 3.15;
+
 PushSample toMessage(const CaseStep& step) {
   PushSample message;
   message.object_T_robot = toMessage(step.object_T_robot);
@@ -73,17 +79,16 @@ PushSample toMessage(const CaseStep& step) {
 }  // namespace
 
 GoalTolerance goalTolerance(double position_m, double yaw_rad) {
-  if (!(position_m >= 0.0 && yaw_rad >= 0.0) || !std::isfinite(position_m + yaw_rad)) {
-    throw InputError("goal tolerance", "position " + std::to_string(position_m) + " m, yaw " +
-                                           std::to_string(yaw_rad) +
-                                           " rad: both must be finite and not negative");
-  }
+  Violations violations;
+  violations.require("position_tolerance [m]", position_m, 0.0, 1000.0);
+  violations.require("yaw_tolerance [rad]", yaw_rad, 0.0, kAnyYaw_rad);
+  violations.throwIfAny("goal");
   GoalTolerance result;
   if (position_m > 0.0) {
     result.position_m = position_m;
   }
   if (yaw_rad > 0.0) {
-    result.yaw_rad = yaw_rad;
+    result.yaw_rad = std::min(yaw_rad, M_PI);
   }
   return result;
 }
@@ -283,7 +288,11 @@ PlanPushGoal toMessage(const PlanRequest& request) {
 PlanRequest fromMessage(const PlanPushGoal& message) {
   PlanRequest request;
   bool found = false;
+  std::set<std::string> ids;
   for (const ObjectPose& object : message.objects) {
+    if (!ids.insert(object.id).second) {
+      throw InputError("goal: objects", "'" + object.id + "' is listed twice");
+    }
     if (object.id == message.object_id) {
       request.object = fromMessage(object);
       found = true;

@@ -1,29 +1,79 @@
 #include "casepush/ros/transforms.h"
 
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
 #include "casepush/common/input_error.h"
 #include "casepush/ros/conversions.h"
 #include "casepush/ros/names.h"
 
 namespace casepush {
+namespace {
+
+constexpr double kMostTilt_rad = 0.2;
+constexpr double kAheadS = 0.5;
+
+/// The latest one. @throws InputError: `where`, then what TF says.
+geometry_msgs::TransformStamped mapTransform(const tf2_ros::Buffer& buffer,
+                                             const std::string& frame, const std::string& where) {
+  try {
+    return buffer.lookupTransform(names::kMapFrame, frame, ros::Time(0));
+  } catch (const tf2::TransformException& error) {
+    const std::string text = error.what();
+    throw InputError(where, text.substr(0, text.find_last_not_of(" \n") + 1));
+  }
+}
+
+}  // namespace
 
 StampedRobotPose robotPose(const tf2_ros::Buffer& buffer) {
   const geometry_msgs::TransformStamped transform =
-      buffer.lookupTransform(names::kMapFrame, names::kBaseFrame, ros::Time(0));
+      mapTransform(buffer, names::kBaseFrame, "the robot's pose is unknown (TF map -> base_link)");
   return {planarPose(fromMessage(transform.transform)), transform.header.stamp.toSec()};
 }
 
+bool isAhead(double stamp_s) {
+  const ros::Time now = ros::Time::now();
+  return !now.isZero() && stamp_s - now.toSec() > kAheadS;
+}
+
+std::string forgetIfAhead(tf2_ros::Buffer& buffer) {
+  std::ostringstream line;
+  try {
+    const double stamp_s = robotPose(buffer).stamp_s;
+    if (isAhead(stamp_s)) {
+      line << "TF map -> base_link is stamped " << stamp_s - ros::Time::now().toSec()
+           << " s ahead of the clock: all transforms are forgotten";
+      buffer.clear();
+    }
+  } catch (const InputError& error) {
+    // Nothing to forget.
+  }
+  return line.str();
+}
+
 Pose2 poseInMap(const tf2_ros::Buffer& buffer, const geometry_msgs::PoseStamped& pose) {
-  const Eigen::Isometry3d frame_T_pose = fromMessage(pose.pose);
+  Eigen::Isometry3d map_T_pose = fromMessage(pose.pose);
   const std::string& frame = pose.header.frame_id;
   if (frame.empty()) {
     throw InputError("goal", "header.frame_id is empty; give a TF frame, e.g. map");
   }
-  if (frame == names::kMapFrame) {
-    return planarPose(frame_T_pose);
+  if (frame != names::kMapFrame) {
+    const geometry_msgs::TransformStamped map_T_frame =
+        mapTransform(buffer, frame, "goal: there is no TF from '" + frame + "' to map");
+    map_T_pose = fromMessage(map_T_frame.transform) * map_T_pose;
   }
-  const geometry_msgs::TransformStamped map_T_frame =
-      buffer.lookupTransform(names::kMapFrame, frame, ros::Time(0));
-  return planarPose(fromMessage(map_T_frame.transform) * frame_T_pose);
+  const double tilt_rad = std::acos(std::clamp(map_T_pose.linear()(2, 2), -1.0, 1.0));
+  if (tilt_rad > kMostTilt_rad) {
+    throw InputError("goal", "is tilted by " +
+                                 std::to_string(std::lround(tilt_rad * 180.0 / M_PI)) +
+                                 " deg in the map; objects stand upright, so only yaw may differ");
+  }
+  return planarPose(map_T_pose);
 }
 
 }  // namespace casepush

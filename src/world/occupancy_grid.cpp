@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "casepush/common/input_error.h"
@@ -18,14 +19,20 @@ constexpr double kMostCells = 4096.0;  // along each axis of the map
 constexpr double kMostPoints = 5e7;
 constexpr double kUnturned_rad = 1e-9;
 
+std::string text(double value) {
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+
 /// As if negative and huge values were one: only whether it is in [1, 2^14] counts.
 constexpr int kMostGridCells = 1 << 14;
 
 void check(const OccupancyGrid& grid, double resolution_m, const std::string& where) {
   checkResolution(resolution_m, where);
   if (!(grid.resolution_m >= 0.001 && grid.resolution_m <= 10.0)) {
-    throw InputError(where, "resolution is " + std::to_string(grid.resolution_m) +
-                                " m, must be in [0.001, 10] m");
+    throw InputError(where,
+                     "resolution is " + text(grid.resolution_m) + " m, must be in [0.001, 10] m");
   }
   if (grid.width < 1 || grid.height < 1 || grid.width > kMostGridCells ||
       grid.height > kMostGridCells) {
@@ -116,7 +123,7 @@ Map mapOf(const OccupancyGrid& grid, const OccupancyOptions& options, double res
   WallBuilder walls(grid, resolution_m);
   const auto [low, high] = walls.bounds();
   if (!((high - low).maxCoeff() <= kMostCells * resolution_m)) {
-    throw InputError(where, "spans " + std::to_string((high - low).maxCoeff()) +
+    throw InputError(where, "spans " + text((high - low).maxCoeff()) +
                                 " m, more than 4096 cells of the map; use a coarser map");
   }
   walls.addWalls(options);

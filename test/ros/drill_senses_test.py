@@ -34,6 +34,23 @@ class DrillSensesTest(drill.Drill):
         self.relay.tf_frozen = False
         self.finish_task()
 
+    def test_transforms_come_from_the_future_for_a_second(self):
+        self.start_task()
+        self.wait_phase("push")
+        self.relay.tf_ahead = rospy.Duration(1000)
+        began_s = self.now()
+        harness.wait_until(lambda: self.now() > began_s + 1.0, what="a second")
+        self.relay.mend()
+        self.finish_task()
+
+    def test_transforms_come_from_the_future(self):
+        self.start_task()
+        self.wait_phase("push")
+        self.relay.tf_ahead = rospy.Duration(1000)
+        self.finish_task(PushObjectResult.STOPPED, explanation="ahead of the clock")
+        self.relay.mend()
+        self.expect_next_task_succeeds()
+
     def test_odometry_freezes(self):
         self.start_task()
         self.wait_phase("approach")

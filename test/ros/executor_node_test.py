@@ -213,7 +213,11 @@ class ExecutorNodeTest(PushingTest):
         nowhere.goal.header.frame_id = "atlantis"
         not_finite = self.push_goal()
         not_finite.goal.pose.position.x = math.nan
-        for goal, words in ((unknown, "piano_1"), (nowhere, "atlantis"), (not_finite, "finite")):
+        tolerance = self.push_goal()
+        tolerance.yaw_tolerance = 7.0
+        for goal, words in ((unknown, "piano_1"), (not_finite, "finite"),
+                            (nowhere, "there is no TF from 'atlantis' to map"),
+                            (tolerance, "yaw_tolerance [rad] is 7")):
             result = self.result(self.push_object, goal)
             self.assertEqual(result.status, PushObjectResult.INVALID_GOAL, result.explanation)
             self.assertIn(words, result.explanation)
@@ -227,6 +231,19 @@ class ExecutorNodeTest(PushingTest):
         outside.goal.pose.position.x = 40.0
         result = self.result(self.push_object, outside)
         self.assertEqual(result.status, PushObjectResult.INVALID_GOAL, result.explanation)
+
+    def test_refuses_the_case_of_another_object(self):
+        cases = harness.made_up_cases()
+        cases.cases[1].object = "utility_cart"
+        self.fake_cases.publish(cases)
+        results = []
+
+        def is_refused():
+            results.append(self.result(self.execute_push, self.replay(cases.cases[1].id)))
+            return results[-1].status == ExecutePushResult.INVALID_GOAL
+
+        harness.wait_until(is_refused, what="the case of a cart")
+        self.assertIn("is of utility_cart", results[-1].explanation)
 
     def test_refuses_to_push_without_cases(self):
         self.fake_cases.publish(PushCaseArray())

@@ -44,6 +44,7 @@ class FaultRelay:
     def mend(self):
         """No faults from now on, but for what the clock says."""
         self.tf_frozen = False
+        self.tf_ahead = rospy.Duration(0)  # Of their true stamps.
         self.odometry_frozen = False
         self.scans_frozen = False
         self.images_frozen = False   # No image comes at all.
@@ -61,7 +62,7 @@ class FaultRelay:
     def _on_tf(self, message):
         if not self.tf_frozen:
             for transform in message.transforms:
-                transform.header.stamp = self._shifted(transform.header.stamp)
+                transform.header.stamp = self._shifted(transform.header.stamp) + self.tf_ahead
             self._publishers["/tf"].publish(message)
 
     def _on_odometry(self, message):

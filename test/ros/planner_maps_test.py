@@ -96,6 +96,21 @@ class PlannerMapsTest(unittest.TestCase):
         self.assertEqual(result.status, PlanPushResult.UNREACHABLE, result.explanation)
         self.assertIn("block every way", result.explanation)
 
+    def test_says_why_there_is_no_map(self):
+        bad = floor_plan()
+        bad.info.resolution = 0.0
+        self.grid.publish(bad)
+        self.start("_map_source:=map")
+        results = []
+
+        def is_told():
+            self.client.send_goal(goal(2.5))
+            results.append(harness.result_of(self.client).explanation)
+            return "refused: topic map: resolution is 0 m" in results[-1]
+
+        harness.wait_until(is_told, what="the reason")
+        self.assertIn("there is no map yet", results[-1])
+
     def test_saved_map_as_file(self):
         self.grid.publish(floor_plan())
         self.start("_map_source:=map", "_map_resolution:=0.1")

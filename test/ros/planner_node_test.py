@@ -94,13 +94,21 @@ class PlannerNodeTest(unittest.TestCase):
         not_finite = self.goal()
         not_finite.goal.pose.position.x = math.nan
         tolerance = self.goal(position_tolerance=-1.0)
+        tilted = self.goal()
+        tilted.goal.pose.orientation.x = tilted.goal.pose.orientation.w = math.sqrt(0.5)
+        tilted.goal.pose.orientation.z = 0.0
+        chair = ObjectPose(id=harness.OBJECT, model="office_chair")
+        twice = self.goal(state_given=True, objects=[chair, chair])
         for goal, status, words in (
                 (unknown, PlanPushResult.INVALID_REQUEST, "piano_1"),
-                (nowhere, PlanPushResult.INVALID_REQUEST, "atlantis"),
+                (nowhere, PlanPushResult.INVALID_REQUEST, "there is no TF from 'atlantis' to map"),
+                (tilted, PlanPushResult.INVALID_REQUEST, "tilted by 90 deg"),
+                (twice, PlanPushResult.INVALID_REQUEST, "'chair_1' is listed twice"),
                 (no_quaternion, PlanPushResult.INVALID_REQUEST, "quaternion"),
                 (not_finite, PlanPushResult.INVALID_REQUEST, "finite"),
-                (tolerance, PlanPushResult.INVALID_REQUEST, "tolerance"),
+                (tolerance, PlanPushResult.INVALID_REQUEST, "position_tolerance [m] is -1"),
                 (self.goal(x_m=30.0), PlanPushResult.GOAL_OUTSIDE_MAP, ""),
+                (self.goal(x_m=1e300), PlanPushResult.GOAL_OUTSIDE_MAP, "(1e+300, 1.5, 46 deg)"),
                 (self.goal(x_m=4.9), PlanPushResult.GOAL_IN_COLLISION, "")):
             result = self.solved(goal)
             self.assertEqual(result.status, status, result.explanation)

@@ -70,8 +70,10 @@ std::string cameraOfFrame(const std::string& frame_id);
 std::string rangeFrame(const std::string& range_sensor);
 
 AprilTagDetectionArray toMessage(const TagFrame& frame);
-/// Bundles of several tags are left out: their poses are not those of a tag.
-TagFrame fromMessage(const AprilTagDetectionArray& message);
+/// Left out are bundles of several tags, whose poses are not those of a tag, and detections whose
+/// pose makes no sense.
+/// @param left_out  If given, says which made no sense and why; empty: none.
+TagFrame fromMessage(const AprilTagDetectionArray& message, std::string* left_out = nullptr);
 
 nav_msgs::Odometry toMessage(const OdometryReading& reading);
 ObjectLoad toMessage(const std::string& id, const Load& load);

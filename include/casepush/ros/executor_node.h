@@ -74,7 +74,7 @@ class ExecutorNode {
 
   void begin(std::unique_ptr<Activity> activity);
   void tick(double now_s);
-  std::optional<Observation> observe(double now_s) const;
+  std::optional<Observation> observe(double now_s);
   Twist2 safeCommand(const Observation& observation, const Twist2& wanted);
   void end(ActivityEnd how, const std::string& explanation);
   void finish();
@@ -95,6 +95,7 @@ class ExecutorNode {
   double objects_stamp_s_ = -1e9;
   SilenceTimer objects_silence_;
   SilenceTimer observation_silence_;
+  std::string blind_reason_;  ///< Why there was no observation.
   nav_msgs::Odometry odometry_;
 
   CommandGuard guard_;

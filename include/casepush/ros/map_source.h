@@ -39,13 +39,15 @@ class MapSource {
   void onSurvey(const sensor_msgs::PointCloud2& message);
   void onGrid(const nav_msgs::OccupancyGrid& message);
   bool onSave(SaveMap::Request& request, SaveMap::Response& response);
+  void refuse(const std::string& why);
   void start(Map map);
   void set(Map map);
 
   MapParameters parameters_;
   OnMap on_map_;
-  std::mutex mutex_;  ///< Guards map_.
+  mutable std::mutex mutex_;  ///< Guards map_ and refused_.
   std::shared_ptr<const Map> map_;
+  std::string refused_;  ///< Why the latest map was; empty: it was not.
   ros::Publisher octomap_;
   ros::Publisher markers_;
   ros::Subscriber subscriber_;

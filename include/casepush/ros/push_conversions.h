@@ -23,7 +23,7 @@ PushCaseArray toMessage(const std::vector<Case>& cases, double stamp_s);
 std::vector<Case> fromMessage(const PushCaseArray& message);
 
 /// 0 stands for the default.
-/// @throws InputError if negative or not finite.
+/// @throws InputError unless in [0, 1000] m and, but for rounding, [0, pi] rad.
 GoalTolerance goalTolerance(double position_m, double yaw_rad);
 
 TrialPush toMessage(const PushConfiguration& configuration);

@@ -150,6 +150,23 @@ TEST(Conversions, leavesOutTagBundles) {
   EXPECT_TRUE(fromMessage(message).detections.empty());
 }
 
+TEST(Conversions, leavesOutOnlyTheDetectionThatMakesNoSense) {
+  TagFrame frame;
+  frame.camera = "front";
+  frame.detections.resize(3);
+  for (int i = 0; i < 3; ++i) frame.detections[i].id = i;
+  AprilTagDetectionArray message = toMessage(frame);
+  message.detections[0].pose.pose.pose.position.x = std::nan("");
+  message.detections[2].pose.pose.pose.orientation.w = 0.0;
+  std::string left_out;
+  const TagFrame back = fromMessage(message, &left_out);
+  ASSERT_EQ(back.detections.size(), 1U);
+  EXPECT_EQ(back.detections[0].id, 1);
+  EXPECT_EQ(left_out,
+            "tag 0: pose message: a number is not finite; tag 2: pose message: the orientation is "
+            "no unit quaternion (length 0.000000)");
+}
+
 TEST(Conversions, cameraNamesComeFromOpticalFramesOnly) {
   EXPECT_EQ(cameraOfFrame(opticalFrame("left")), "left");
   EXPECT_EQ(cameraOfFrame("base_link"), "");

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "casepush/common/input_error.h"
+#include "common/input_error_text.h"
 
 namespace casepush {
 namespace {
@@ -216,19 +217,29 @@ TEST(PushConversions, requestsComeBack) {
 TEST(PushConversions, namesTheObjectThatNobodyKnows) {
   PlanPushGoal goal = toMessage(someRequest());
   goal.object_id = "sofa_1";
-  try {
-    fromMessage(goal);
-    FAIL() << "no exception";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("sofa_1"), std::string::npos);
-  }
+  EXPECT_EQ(inputErrorText([&] { fromMessage(goal); }),
+            "goal: object_id: no object 'sofa_1' is known (has it been seen?)");
+}
+
+TEST(PushConversions, refusesAnObjectThatIsListedTwice) {
+  PlanPushGoal goal = toMessage(someRequest());
+  goal.objects.push_back(goal.objects.back());
+  EXPECT_EQ(inputErrorText([&] { fromMessage(goal); }),
+            "goal: objects: '" + goal.objects.back().id + "' is listed twice");
 }
 
 TEST(PushConversions, zeroToleranceStandsForTheDefault) {
   EXPECT_DOUBLE_EQ(goalTolerance(0, 0).position_m, GoalTolerance().position_m);
   EXPECT_DOUBLE_EQ(goalTolerance(0.3, 0).position_m, 0.3);
-  EXPECT_THROW(goalTolerance(-0.1, 0), InputError);
-  EXPECT_THROW(goalTolerance(0.1, kNan), InputError);
+}
+
+TEST(PushConversions, namesTheToleranceThatIsOutOfBounds) {
+  EXPECT_EQ(inputErrorText([] { goalTolerance(-0.1, 7.0); }),
+            "goal: position_tolerance [m] is -0.1, must be in [0, 1000]; "
+            "yaw_tolerance [rad] is 7, must be in [0, 3.15]");
+  EXPECT_EQ(inputErrorText([] { goalTolerance(0.1, kNan); }),
+            "goal: yaw_tolerance [rad] is nan, must be in [0, 3.15]");
+  EXPECT_DOUBLE_EQ(goalTolerance(0.1, 3.1416).yaw_rad, M_PI);
 }
 
 TEST(PushConversions, planResultsComeBack) {

@@ -116,7 +116,7 @@ TEST(OccupancyGridTest, refusesGridsThatMakeNoSense) {
     return errorOf([&] { mapOf(grid, {}, 0.05, "plan"); });
   };
   EXPECT_EQ(error([](auto& grid) { grid.resolution_m = 0.0; }),
-            "plan: resolution is 0.000000 m, must be in [0.001, 10] m");
+            "plan: resolution is 0 m, must be in [0.001, 10] m");
   EXPECT_NE(error([](auto& grid) { grid.resolution_m = std::nan(""); }).find("resolution is nan"),
             std::string::npos);
   EXPECT_EQ(error([](auto& grid) { grid.width = 0; }),
