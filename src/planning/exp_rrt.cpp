@@ -87,23 +87,28 @@ void ExpRrt::clear() {
 
 ob::PlannerStatus ExpRrt::solve(const ob::PlannerTerminationCondition& stop) {
   checkValidity();
-  stop_ = &stop;
   if (goal_ == nullptr) {
     return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   }
-  const std::size_t known = solutions_.size();
-  if (!start()) {
+  if (!search([&stop] { return stop(); })) {
     return ob::PlannerStatus::INVALID_START;
-  }
-  Growth growth = solutions_.size() > known ? Growth::kSolution : Growth::kNothing;
-  while (growth == Growth::kNothing && !stop) {
-    growth = grow();
   }
   if (solutions_.empty()) {
     return ob::PlannerStatus::TIMEOUT;
   }
   addSolutionPath(solutions_.front());
   return ob::PlannerStatus::EXACT_SOLUTION;
+}
+
+bool ExpRrt::search(const std::function<bool()>& stop) {
+  stop_ = &stop;
+  const std::size_t known = solutions_.size();
+  if (!start()) return false;
+  Growth growth = solutions_.size() > known ? Growth::kSolution : Growth::kNothing;
+  while (growth == Growth::kNothing && !stop()) {
+    growth = grow();
+  }
+  return true;
 }
 
 bool ExpRrt::start() {

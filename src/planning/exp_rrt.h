@@ -77,8 +77,9 @@ using CanApproach = std::function<bool(const Pose2& map_T_object, const Prepared
 /// constraints a push is safe if its mean motion is and the chain up to it does not risk too much,
 /// and expected recoveries count as time.
 ///
-/// Each solve() continues the tree until the next new solution, the termination condition, or until
-/// nothing is left to try. Its own seed makes it reproducible; OMPL's random numbers are not used.
+/// Each solve(), or search(), continues the tree until the next new solution, the termination
+/// condition, or until nothing is left to try. Its own seed makes it reproducible; OMPL's random
+/// numbers are not used.
 class ExpRrt : public ompl::base::Planner {
  public:
   /// @param checker  Must outlive the planner; not shared with other threads while it solves.
@@ -92,6 +93,10 @@ class ExpRrt : public ompl::base::Planner {
 
   void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& problem) override;
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& stop) override;
+  /// The same without adding a solution to the problem's definition.
+  /// @param stop  Asked often.
+  /// @return  False if there is no valid start.
+  bool search(const std::function<bool()>& stop);
   void clear() override;
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
@@ -172,7 +177,7 @@ class ExpRrt : public ompl::base::Planner {
   PushTree tree_;
   Random random_;
   const PushGoal* goal_ = nullptr;
-  const ompl::base::PlannerTerminationCondition* stop_ = nullptr;  // of the call of solve()
+  const std::function<bool()>* stop_ = nullptr;  // of the call of search()
   std::vector<int> solutions_;
   double best_cost_s_;
   int extension_count_ = 0;

@@ -20,6 +20,7 @@ constexpr int kStraight = static_cast<int>(2.0 * kHalfStraight);
 constexpr int kDiagonal = static_cast<int>(2.0 * kHalfDiagonal);
 // The estimate may grow by one open step.
 constexpr int kLongestStep = static_cast<int>(kDiagonal * ObjectRoom::kTight) + kDiagonal;
+constexpr float kUnknown = -1.0F;  // length of a way
 
 }  // namespace
 
@@ -139,31 +140,41 @@ const ObjectRoom* RoomLibrary::get(const std::string& model, const Patience& pat
   return patience.isOver() ? nullptr : &rooms_.emplace(model, std::move(room)).first->second;
 }
 
-GoalGuide::GoalGuide(const ObjectRoom& room, std::vector<HalfSteps> half_steps,
+GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<HalfSteps>& half_steps,
                      const Eigen::Vector2d& start_m, const Eigen::Vector2d& goal_m,
                      double tolerance_m)
     : goal_m_(goal_m),
       room_(room),
       stride_(room.width() + 2),
+      per_row_((std::uint64_t{1} << kReciprocal) / stride_ + 1),
       low_m_(room.centre(0)),
       last_(room.width() - 1.0, room.height() - 1.0),
       cells_per_m_(1.0 / room.cell()),
-      half_steps_(std::move(half_steps)),
-      flood_(static_cast<int>(half_steps_.size()), stride_, kLongestStep) {
+      half_steps_(half_steps.data()),
+      flood_(static_cast<int>(half_steps.size()), stride_, kLongestStep),
+      way_m_(half_steps.size(), kUnknown) {
   const int start = cell(start_m);
   const int goal = cell(goal_m);
   for (const int end : {start, goal}) {  // Nearly free, at least.
-    if (half_steps_[end].straight == 0) half_steps_[end] = {kStraight / 2, kDiagonal / 2};
+    if (half_steps_[end].straight != 0) continue;
+    if (freed_.empty()) freed_ = half_steps;
+    freed_[end] = {kStraight / 2, kDiagonal / 2};
+    half_steps_ = freed_.data();
   }
   start_x_ = start % stride_;
   start_y_ = start / stride_;
-  reaches_start_ = reach(start, {goal}) || reach(start, region(tolerance_m));
+  reaches_start_ = reach(start, {goal});
+  if (reaches_start_) return;
+  flood_.clear();
+  std::fill(way_m_.begin(), way_m_.end(), kUnknown);
+  reaches_start_ = reach(start, region(tolerance_m));
 }
 
 // The length of an open way from there to the start.
 int GoalGuide::estimate(int cell) const {
-  const int across = std::abs(cell % stride_ - start_x_);
-  const int up = std::abs(cell / stride_ - start_y_);
+  const int row = rowOf(cell);
+  const int across = std::abs(cell - row * stride_ - start_x_);
+  const int up = std::abs(row - start_y_);
   return kStraight * std::max(across, up) + (kDiagonal - kStraight) * std::min(across, up);
 }
 
@@ -189,10 +200,7 @@ int GoalGuide::cell(const Eigen::Vector2d& point_m) const {
 }
 
 bool GoalGuide::reach(int start, const std::vector<int>& goals) {
-  constexpr float kUnknown = -1.0F;
   const double unit_m = room_.cell() / kStraight;
-  flood_ = GridFlood(static_cast<int>(half_steps_.size()), stride_, kLongestStep);
-  way_m_.assign(half_steps_.size(), kUnknown);
   is_estimated_ = goals.size() == 1;
   for (const int goal : goals) flood_.begin(goal, is_estimated_ ? estimate(goal) : 0);
   settle(start);

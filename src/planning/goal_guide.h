@@ -93,9 +93,11 @@ class RoomLibrary {
 class GoalGuide {
  public:
   /// Looks a little farther than from goal to start, not over the whole of a large map.
-  /// @param half_steps  Of the room with all obstacles.
-  GoalGuide(const ObjectRoom& room, std::vector<HalfSteps> half_steps,
+  /// @param half_steps  Of the room with all obstacles. Both outlive this.
+  GoalGuide(const ObjectRoom& room, const std::vector<HalfSteps>& half_steps,
             const Eigen::Vector2d& start_m, const Eigen::Vector2d& goal_m, double tolerance_m);
+  GoalGuide(const GoalGuide&) = delete;
+  GoalGuide& operator=(const GoalGuide&) = delete;
 
   /// False only if there is certainly no way of the object's origin from start to the
   /// goal region.
@@ -121,7 +123,12 @@ class GoalGuide {
   }
 
  private:
+  static constexpr int kReciprocal = 40;  // Bits: exact for any map, at most 4096 x 4096 cells.
+
   int cell(const Eigen::Vector2d& point_m) const;
+  int rowOf(int cell) const {
+    return static_cast<int>(static_cast<std::uint64_t>(cell) * per_row_ >> kReciprocal);
+  }
   int estimate(int cell) const;
   std::vector<int> region(double tolerance_m) const;
   bool reach(int start, const std::vector<int>& goals);
@@ -132,10 +139,12 @@ class GoalGuide {
   Eigen::Vector2d goal_m_;
   const ObjectRoom& room_;
   int stride_;             // There is a rim of one cell around the room.
+  std::uint64_t per_row_;  // its reciprocal, see rowOf()
   Eigen::Vector2d low_m_;  // centre of the first cell
   Eigen::Vector2d last_;   // of the last cell, from there and in cells
   double cells_per_m_;
-  std::vector<HalfSteps> half_steps_;
+  std::vector<HalfSteps> freed_;  // where start or goal is not free
+  const HalfSteps* half_steps_;   // those, or the room's
   GridFlood flood_;
   int start_x_ = 0;  // Where the estimate leads.
   int start_y_ = 0;

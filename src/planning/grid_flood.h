@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -22,6 +23,16 @@ class GridFlood {
     int size = 1;
     while (size <= longest_step) size *= 2;
     first_.assign(size, kNone);
+  }
+
+  /// As new, with the room for its queue kept.
+  void clear() {
+    std::fill(distance_.begin(), distance_.end(), kUnreached);
+    std::fill(first_.begin(), first_.end(), kNone);
+    waiting_.clear();
+    left_ = 0;
+    now_ = 0;
+    limit_ = kUnreached;
   }
 
   /// @param estimate  Of the cell; all cells that are begun with have the same.
@@ -52,7 +63,7 @@ class GridFlood {
         continue;
       }
       const Waiting waiting = waiting_[first];
-      const int distance = now_ - estimate(waiting.cell);
+      const int distance = waiting.distance;
       const bool is_final = distance_[waiting.cell] == distance;  // Or it was reached sooner.
       if (is_final && !goes_on(waiting.cell, distance)) return distance;
       first = waiting.next;
@@ -60,6 +71,7 @@ class GridFlood {
       if (!is_final) continue;
       for (std::size_t i = 0; i < steps_.size(); ++i) {
         const int next = waiting.cell + steps_[i];
+        if (distance_[next] <= distance) continue;  // Half of them, mostly: no step is for nothing.
         const int step = cost(waiting.cell, next, i >= steps_.size() / 2);
         if (step <= 0) continue;
         const int reached = distance + step;
@@ -82,13 +94,14 @@ class GridFlood {
 
   struct Waiting {
     int cell;
+    int distance;
     int next;  // in the same bucket
   };
 
   void reach(int cell, int distance, int estimate) {
     int& first = first_[(distance + estimate) & (first_.size() - 1)];
     distance_[cell] = distance;
-    waiting_.push_back({cell, first});
+    waiting_.push_back({cell, distance, first});
     first = static_cast<int>(waiting_.size()) - 1;
     ++left_;
   }

@@ -122,18 +122,20 @@ std::optional<PlanProblem> checkStartAndGoal(const PlanRequest& request,
                                              const Footprint& footprint) {
   const Pose2& start = request.object.map_T_object;
   const Pose2& goal = request.map_T_goal;
-  const std::string name = "object " + quoted(request.object.id) + " at " + describe(start);
+  const auto name = [&] {
+    return "object " + quoted(request.object.id) + " at " + describe(start);
+  };
   if (!checker.isInside(goal)) {
     return PlanProblem{PlanStatus::kGoalOutsideMap,
                        "goal " + describe(goal) + ": lies outside of the map"};
   }
   if (!checker.isInside(start)) {
-    return PlanProblem{PlanStatus::kStartInCollision, name + ": stands outside of the map"};
+    return PlanProblem{PlanStatus::kStartInCollision, name() + ": stands outside of the map"};
   }
   const std::vector<Contact> at_start = checker.contacts(footprint, start);
   if (!mayStart(at_start, checker)) {
     return PlanProblem{PlanStatus::kStartInCollision,
-                       name + ": overlaps " + describe(deepest(at_start), checker.obstacles())};
+                       name() + ": overlaps " + describe(deepest(at_start), checker.obstacles())};
   }
   const std::vector<Contact> at_goal = checker.contacts(footprint, goal);
   if (!at_goal.empty()) {

@@ -1,8 +1,7 @@
 #include "plan_search.h"
 
-#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
-#include <ompl/util/Console.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,20 +21,9 @@ using Se2 = ob::SE2StateSpace;
 constexpr double kThoroughShare = 0.5;
 constexpr double kSimpleShare = 0.97;
 
-ob::SpaceInformationPtr makeSpace(PushChecker* checker) {
-  const CollisionChecker::Columns& columns = checker->collisions().columns();
-  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);  // It writes to where results go.
-  ob::RealVectorBounds bounds(2);
-  bounds.setLow(0, columns.origin_m.x());
-  bounds.setLow(1, columns.origin_m.y());
-  bounds.setHigh(0, columns.origin_m.x() + columns.width * columns.resolution_m);
-  bounds.setHigh(1, columns.origin_m.y() + columns.height * columns.resolution_m);
-  const auto se2 = std::make_shared<Se2>();
-  se2->setBounds(bounds);
-  const auto space = std::make_shared<ob::SpaceInformation>(se2);
-  space->setStateValidityChecker(
-      [checker](const ob::State* state) { return checker->isFree(poseOf(state)); });
-  space->setup();
+std::unique_ptr<SearchSpace> borrowSpace(const SearchProblem& problem, PushChecker* checker) {
+  std::unique_ptr<SearchSpace> space = problem.spaces->borrow(checker->collisions().columns());
+  space->use(checker);
   return space;
 }
 
@@ -160,10 +148,10 @@ PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
       clock_(clock),
       safety_(safety),
       chance_(problem, cases->cases, checker, safety),
-      space_(makeSpace(checker)),
-      definition_(makeDefinition(space_, problem.request)),
-      rrt_(makeRrt(problem, space_, checker, std::move(cases), chance_.constraint(), guide,
-                   approaches == Approaches::kSimple ? simpleApproach() : CanApproach())),
+      space_(borrowSpace(problem, checker)),
+      definition_(makeDefinition(space_->information(), problem.request)),
+      rrt_(makeRrt(problem, space_->information(), checker, std::move(cases), chance_.constraint(),
+                   guide, approaches == Approaches::kSimple ? simpleApproach() : CanApproach())),
       checker_(checker),
       approaches_how_(approaches),
       approaches_(problem, checker->collisions(), [&clock] { return clock.isOver(); }) {
@@ -184,7 +172,7 @@ CanApproach PlanSearch::simpleApproach() {
   };
 }
 
-PlanSearch::~PlanSearch() = default;
+PlanSearch::~PlanSearch() { problem_.spaces->giveBack(std::move(space_)); }
 
 PlanSearch::End PlanSearch::run() {
   constexpr int kMostDeadEnds = 40;
@@ -220,12 +208,12 @@ bool PlanSearch::findFirst() {
   // and at what the quick check of approaches turned down.
   constexpr int kQuick = 3000;
   const int quick = rrt_.extensionCount() + kQuick;
-  rrt_.solve(ob::PlannerTerminationCondition(
-      [this, quick] { return rrt_.extensionCount() >= quick || isOver(safety_.deadline_share); }));
+  rrt_.search(
+      [this, quick] { return rrt_.extensionCount() >= quick || isOver(safety_.deadline_share); });
   if (!rrt_.solutions().empty() || solution_ || isLate() || isCutOff() || mayBeMissing()) {
     return !rrt_.solutions().empty();
   }
-  rrt_.solve(ob::PlannerTerminationCondition([this] { return isOver(safety_.deadline_share); }));
+  rrt_.search([this] { return isOver(safety_.deadline_share); });
   return !rrt_.solutions().empty();
 }
 
@@ -259,13 +247,14 @@ void PlanSearch::improve() {
         std::int64_t{rrt_.extensionCount()} + problem_.options.improvement_extensions;
   }
   const double share = approaches_how_ == Approaches::kSimple ? kSimpleShare : kThoroughShare;
-  const ob::PlannerTerminationCondition stop(
-      [this, share] { return rrt_.extensionCount() >= improvement_end_ || isOver(share); });
+  const std::function<bool()> stop = [this, share] {
+    return rrt_.extensionCount() >= improvement_end_ || isOver(share);
+  };
   const auto wanted = static_cast<std::size_t>(problem_.options.solutions);
   std::size_t before = 0;
   while (rrt_.solutions().size() < wanted && rrt_.solutions().size() > before) {
     before = rrt_.solutions().size();
-    rrt_.solve(stop);
+    rrt_.search(stop);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "approach_check.h"
@@ -18,6 +19,7 @@
 #include "exp_rrt.h"
 #include "goal_guide.h"
 #include "patience.h"
+#include "search_spaces.h"
 
 namespace casepush {
 
@@ -64,6 +66,7 @@ struct SearchProblem {
   ApproachLibrary* approaches;
   const ClearanceGrid& travel;  ///< Of the map, for the robot.
   CaseSetLibrary* case_sets;
+  SearchSpaces* spaces;
   Disposal* disposal;
 };
 
@@ -150,13 +153,13 @@ class PlanSearch {
   enum class End { kFound, kExhausted, kNodeLimit, kStopped, kCutOff };
   End run();
 
-  /// What it found. @pre run() returned kFound.
+  /// What it found, once. @pre run() returned kFound.
   struct Solution {
     PushPlan plan;
     double expected_s = 0.0;
     int dead_end = 0;  ///< As PlanResult::dead_end.
   };
-  const Solution& solution() const { return *solution_; }
+  Solution takeSolution() { return std::move(*solution_); }
   const ExpRrt& rrt() const { return rrt_; }
 
   /// Was a push turned down because the robot may not get to it?
@@ -188,7 +191,7 @@ class PlanSearch {
   const SearchClock& clock_;
   SafetyLevel safety_;
   SearchChance chance_;
-  ompl::base::SpaceInformationPtr space_;
+  std::unique_ptr<SearchSpace> space_;
   ompl::base::ProblemDefinitionPtr definition_;
   ExpRrt rrt_;
   PushChecker* checker_;

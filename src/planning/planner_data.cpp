@@ -48,6 +48,7 @@ PushPlanner::Data::Data(std::shared_ptr<const Map> new_map, RobotModel new_robot
       library(std::make_shared<SweepLibrary>(std::size_t{1000000} * options.mask_memory_mb)),
       approaches(std::make_shared<ApproachLibrary>(checker, robot, objects, options.robot_path)),
       case_sets(std::make_shared<CaseSetLibrary>()),
+      spaces(std::make_shared<SearchSpaces>()),
       travel(std::make_shared<const ClearanceGrid>(*checker.mapColumns(), approaches->discs())),
       rooms(std::make_shared<RoomLibrary>(checker, objects)),
       scenes(std::make_shared<SceneLibrary>()) {
@@ -75,6 +76,7 @@ void PushPlanner::Data::update(std::shared_ptr<const Map> newer,
   paths = paths.updated(before, checker, changed);
   rooms = rooms->updated(checker, changed);
   scenes = std::make_shared<SceneLibrary>();
+  if (!fits) spaces = std::make_shared<SearchSpaces>();
   for (auto& [name, own] : footprints) {
     own.sweeps = std::make_shared<const SweepChecker>(own.sweeps->updated(checker, changed));
   }
@@ -98,6 +100,7 @@ SearchProblem PushPlanner::Data::problem(const PlanRequest& request,
           approaches.get(),
           *travel,
           case_sets.get(),
+          spaces.get(),
           disposal.get()};
 }
 

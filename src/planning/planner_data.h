@@ -15,6 +15,7 @@
 #include "plan_request.h"
 #include "plan_search.h"
 #include "scene_library.h"
+#include "search_spaces.h"
 #include "sweep_library.h"
 
 namespace casepush {
@@ -40,6 +41,7 @@ struct PushPlanner::Data {
   std::shared_ptr<SweepLibrary> library;
   std::shared_ptr<ApproachLibrary> approaches;
   std::shared_ptr<CaseSetLibrary> case_sets;
+  std::shared_ptr<SearchSpaces> spaces;
   std::shared_ptr<const ClearanceGrid> travel;
   std::shared_ptr<RoomLibrary> rooms;
   std::shared_ptr<SceneLibrary> scenes;
@@ -83,6 +85,8 @@ struct PushPlanner::Data {
                       const SafetyLevel& safety, GoalGuide* guide, const SearchClock& clock) const;
   PlanResult searchFinestLast(const PlanRequest& request, const std::vector<const Case*>& cases,
                               const SearchClock& clock) const;
+  void searchAgain(const PlanRequest& request, const std::vector<const Case*>& cases,
+                   const SearchClock& clock, PlanResult* result) const;
   void improve(const PlanRequest& request, const std::vector<const Case*>& cases,
                const SearchClock& clock, PlanResult* result) const;
   ClearingResult clearAway(const ClearingRequest& request, const PlanRequest& plan_request,

@@ -114,7 +114,7 @@ Outcome searchOnce(const SearchProblem& problem, PushChecker* checker, const Saf
     outcome.approach_problem = search.approachProblem();
     outcome.narrow_place = search.narrowPlace();
     if (outcome.end == PlanSearch::End::kFound) {
-      outcome.solution = search.solution();
+      outcome.solution = search.takeSolution();
     }
     const bool is_over = outcome.end != PlanSearch::End::kExhausted || !search.hasRejected();
     if (is_over) {
@@ -180,12 +180,7 @@ PlanResult PushPlanner::plan(const PlanRequest& request, const std::vector<Case>
   } else {
     try {
       result = data_->searchFinestLast(request, own, clock);
-      PlanRequest again = request;
-      while (searchesAgain(data_->options) && result.status == PlanStatus::kSolved &&
-             !result.plan.pushes.empty() && !clock.isOver()) {
-        ++again.seed;
-        data_->improve(again, own, clock, &result);
-      }
+      if (searchesAgain(data_->options)) data_->searchAgain(request, own, clock, &result);
     } catch (const InputError& error) {
       result = failed(PlanStatus::kInvalidRequest, error.what());
     }
@@ -199,9 +194,9 @@ PushPlanner::Data::Attempt PushPlanner::Data::search(const PlanRequest& request,
                                                      const SearchClock& clock) const {
   const ObjectRoom* room = rooms->get(request.object.model, clock.patience());
   if (room == nullptr) return {stopped(request, clock)};
-  const std::vector<PlacedSolid> obstacles = placeObstacles(request.obstacles, objects);
   const Footprints& own = footprints.at(request.object.model);
   const auto scene = scenes->get(request.object.model, request.obstacles, [&] {
+    const std::vector<PlacedSolid> obstacles = placeObstacles(request.obstacles, objects);
     return Scene{own.sweeps->withObstaclesOf(checkerWith(obstacles)), room->halfSteps(obstacles)};
   });
   PushChecker push_checker = pushChecker(request.object.model, scene->sweeps);
@@ -209,7 +204,8 @@ PushPlanner::Data::Attempt PushPlanner::Data::search(const PlanRequest& request,
     return {failed(problem->status, problem->explanation)};
   }
   push_checker.tolerateStart(request.object.map_T_object);
-  const SearchProblem problem = this->problem(request, cases, obstacles);
+  const SearchProblem problem =
+      this->problem(request, cases, scene->sweeps.collisions().obstacles());
   GoalGuide guide(*room, scene->room, request.object.map_T_object.position(),
                   request.map_T_goal.position(), request.tolerance.position_m);
   if (!guide.reachesStart()) {
@@ -249,7 +245,7 @@ PushPlanner::Data::Attempt PushPlanner::Data::searchLevels(const SearchProblem& 
   }
   const bool says_more = attempt.result.status == PlanStatus::kSolved ||
                          attempt.result.status == PlanStatus::kCancelled;
-  return probe && !says_more ? *probe : attempt;
+  return probe && !says_more ? std::move(*probe) : std::move(attempt);
 }
 
 PushPlanner::Data::Attempt PushPlanner::Data::searchLevel(const SearchProblem& problem,
@@ -259,12 +255,12 @@ PushPlanner::Data::Attempt PushPlanner::Data::searchLevel(const SearchProblem& p
                                                           const SearchClock& clock) const {
   Attempt attempt;
   PlanResult& result = attempt.result;
-  const Outcome outcome = searchOnce(problem, push_checker, safety, guide, clock, &result);
+  Outcome outcome = searchOnce(problem, push_checker, safety, guide, clock, &result);
   result.collision_checks = push_checker->checkCount();
   clock.addNodes(outcome.nodes);
   if (outcome.end == PlanSearch::End::kFound) {
     result.status = PlanStatus::kSolved;
-    result.plan = outcome.solution.plan;
+    result.plan = std::move(outcome.solution.plan);
     compoundPushes(&result.plan);
     result.expected_s = outcome.solution.expected_s;
     result.dead_end = outcome.solution.dead_end;
@@ -294,11 +290,11 @@ PlanResult PushPlanner::Data::searchFinestLast(const PlanRequest& request,
   std::copy_if(cases.begin(), cases.end(), std::back_inserter(whole),
                [](const Case* push_case) { return push_case->id >= 0; });
   if (whole.empty()) whole = cases;
-  const Attempt attempt = search(request, whole, clock);
-  const PlanResult& result = attempt.result;
+  Attempt attempt = search(request, whole, clock);
+  PlanResult& result = attempt.result;
   const bool is_unreachable =
       result.status == PlanStatus::kUnreachable && options.relax && !clock.isOver();
-  if (!is_unreachable) return result;
+  if (!is_unreachable) return std::move(result);
   Data finer = *this;
   PlanResult other = result;
   if (attempt.is_worth_relaxing && isMetricExpRrt(options) && result.nodes < options.max_nodes) {
@@ -311,7 +307,18 @@ PlanResult PushPlanner::Data::searchFinestLast(const PlanRequest& request,
   }
   const bool says_more =
       other.status == PlanStatus::kSolved || other.status == PlanStatus::kCancelled;
-  return says_more ? other : result;
+  return says_more ? std::move(other) : std::move(result);
+}
+
+// Until the time is up.
+void PushPlanner::Data::searchAgain(const PlanRequest& request,
+                                    const std::vector<const Case*>& cases, const SearchClock& clock,
+                                    PlanResult* result) const {
+  PlanRequest again = request;
+  while (result->status == PlanStatus::kSolved && !result->plan.pushes.empty() && !clock.isOver()) {
+    ++again.seed;
+    improve(again, cases, clock, result);
+  }
 }
 
 // Searches once more and takes what is better.

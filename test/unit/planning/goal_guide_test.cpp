@@ -20,14 +20,23 @@ WorldModel roomWithWall(double length_m) {
   return world;
 }
 
-GoalGuide guideIn(const ObjectRoom& room, const std::vector<PlacedSolid>& obstacles = {}) {
-  return {room, room.halfSteps(obstacles), kStart, kGoal, kTolerance_m};
-}
+/// A guide and what it needs.
+struct Guided {
+  explicit Guided(const ObjectRoom& room, const std::vector<PlacedSolid>& obstacles = {})
+      : half_steps(room.halfSteps(obstacles)),
+        guide(room, half_steps, kStart, kGoal, kTolerance_m) {}
+
+  double at(const Eigen::Vector2d& point_m) { return guide.at(point_m); }
+  bool reachesStart() const { return guide.reachesStart(); }
+
+  std::vector<HalfSteps> half_steps;
+  GoalGuide guide;
+};
 
 TEST(GoalGuide, isAboutTheStraightWayInTheOpen) {
   const CollisionChecker checker(*mapOf(emptyRoom()));
   const ObjectRoom room(checker.columns(), testChair().solid);
-  GoalGuide guide = guideIn(room);
+  Guided guide(room);
   EXPECT_TRUE(guide.reachesStart());
   EXPECT_NEAR(guide.at(kStart), 7.0, 0.4);
   EXPECT_LT(guide.at(kGoal), 0.3);
@@ -36,11 +45,11 @@ TEST(GoalGuide, isAboutTheStraightWayInTheOpen) {
 TEST(GoalGuide, leadsAroundWallsAndObjects) {
   const CollisionChecker checker(*mapOf(roomWithWall(11.0)));
   const ObjectRoom room(checker.columns(), testChair().solid);
-  const double around_m = guideIn(room).at(kStart);
+  const double around_m = Guided(room).at(kStart);
   EXPECT_GT(around_m, 10.0);
   // Chairs at the near side of the gap make the way longer.
-  GoalGuide narrow = guideIn(room, {{testChair().solid, Pose2(7.5, 11.8, 0.0)},
-                                    {testChair().solid, Pose2(7.5, 12.8, 0.0)}});
+  Guided narrow(room, {{testChair().solid, Pose2(7.5, 11.8, 0.0)},
+                       {testChair().solid, Pose2(7.5, 12.8, 0.0)}});
   EXPECT_TRUE(narrow.reachesStart());
   EXPECT_GT(narrow.at(kStart), around_m + 0.3);
 }
@@ -54,10 +63,10 @@ TEST(GoalGuide, answersTheSameInAnyOrder) {
   for (int i = 0; i < 400; ++i) {
     points.emplace_back(random.uniform(-1.0, 16.0), random.uniform(-1.0, 16.0));
   }
-  GoalGuide forwards = guideIn(room);
+  Guided forwards(room);
   std::vector<double> ways_m;
   for (const Eigen::Vector2d& point : points) ways_m.push_back(forwards.at(point));
-  GoalGuide backwards = guideIn(room);
+  Guided backwards(room);
   for (std::size_t i = points.size(); i-- > 0;) {
     EXPECT_EQ(backwards.at(points[i]), ways_m[i]) << points[i].transpose();
   }
@@ -67,7 +76,7 @@ TEST(GoalGuide, answersTheSameInAnyOrder) {
 TEST(GoalGuide, seesThatThereIsNoWay) {
   const CollisionChecker checker(*mapOf(roomWithWall(15.0)));
   const ObjectRoom room(checker.columns(), testChair().solid);
-  EXPECT_FALSE(guideIn(room).reachesStart());
+  EXPECT_FALSE(Guided(room).reachesStart());
 }
 
 }  // namespace
