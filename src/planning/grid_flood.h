@@ -30,6 +30,7 @@ class GridFlood {
     std::fill(distance_.begin(), distance_.end(), kUnreached);
     std::fill(first_.begin(), first_.end(), kNone);
     waiting_.clear();
+    free_ = kNone;
     left_ = 0;
     now_ = 0;
     limit_ = kUnreached;
@@ -62,11 +63,14 @@ class GridFlood {
         ++now_;
         continue;
       }
-      const Waiting waiting = waiting_[first];
+      const int at = first;
+      const Waiting waiting = waiting_[at];
       const int distance = waiting.distance;
       const bool is_final = distance_[waiting.cell] == distance;  // Or it was reached sooner.
       if (is_final && !goes_on(waiting.cell, distance)) return distance;
       first = waiting.next;
+      waiting_[at].next = free_;
+      free_ = at;
       --left_;
       if (!is_final) continue;
       for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -101,14 +105,22 @@ class GridFlood {
   void reach(int cell, int distance, int estimate) {
     int& first = first_[(distance + estimate) & (first_.size() - 1)];
     distance_[cell] = distance;
-    waiting_.push_back({cell, distance, first});
-    first = static_cast<int>(waiting_.size()) - 1;
+    int at = free_;
+    if (at == kNone) {
+      at = static_cast<int>(waiting_.size());
+      waiting_.emplace_back();
+    } else {
+      free_ = waiting_[at].next;
+    }
+    waiting_[at] = {cell, distance, first};
+    first = at;
     ++left_;
   }
 
   std::array<int, 8> steps_;  // the straight ones first
   std::vector<int> distance_;
-  std::vector<Waiting> waiting_;  // and those that are done
+  std::vector<Waiting> waiting_;  // and places for others
+  int free_ = kNone;              // the first of those
   std::vector<int> first_;        // of each bucket, in waiting_
   int left_ = 0;
   int now_ = 0;  // distance and estimate of the cells whose turn it is
