@@ -17,7 +17,9 @@ class EdgeQueue {
  public:
   struct Push {
     float key_s;  ///< What it promises, >= 0: the less the sooner. Of equal ones the lower index.
-    std::int32_t index;
+    std::int32_t index : 31;
+    /// The key may be too small: who finds it first says the right one.
+    bool is_rough : 1;
 
     bool operator<(const Push& other) const {
       return key_s != other.key_s ? key_s < other.key_s : index < other.index;
@@ -26,10 +28,13 @@ class EdgeQueue {
   struct Edge {
     int node;
     int push;
+    bool is_rough;
   };
 
-  static constexpr int kMost = 7;   ///< Pushes of a node.
-  static constexpr int kMore = -1;  ///< In the place of a push: from this key on there are others.
+  static constexpr int kMost = 7;  ///< Pushes of a node.
+  /// In the place of a push: from this key on there are others. Whoever finds it takes all of the
+  /// node out, and adds it anew.
+  static constexpr int kMore = -1;
 
   bool empty() const { return heap_.empty(); }
 
@@ -46,6 +51,7 @@ class EdgeQueue {
       const auto more = pushes->begin() + (kMost - 1);
       std::nth_element(pushes->begin(), more, pushes->end());
       more->index = kMore;
+      more->is_rough = false;
       pushes->resize(kMost);
     }
     std::sort(pushes->begin(), pushes->end(), [](const Push& a, const Push& b) { return b < a; });
@@ -59,18 +65,35 @@ class EdgeQueue {
   /// The node of the next edge. @pre Not empty.
   int nextNode() const { return static_cast<int>(heap_.front() & 0xffffffff); }
 
-  /// Takes the first edge out. @pre Not empty.
-  Edge pop() {
+  /// The next edge. @pre Not empty.
+  Edge first() const {
+    const int node = nextNode();
+    const List& list = lists_[node];
+    const Push& first = list.pushes[list.count - 1];
+    return {node, first.index, first.is_rough};
+  }
+
+  /// Puts the next edge, a rough one, where it belongs. @pre Not empty.
+  void refineFirst(float key_s) {
     const int node = nextNode();
     List& list = lists_[node];
-    const Push first = list.pushes[--list.count];
-    if (list.count > 0) {
+    int at = list.count - 1;
+    const Push refined{key_s, list.pushes[at].index, false};
+    for (; at > 0 && list.pushes[at - 1] < refined; --at) list.pushes[at] = list.pushes[at - 1];
+    list.pushes[at] = refined;
+    sink(entry(list.pushes[list.count - 1].key_s, node));
+  }
+
+  /// Takes the next edge out. @pre Not empty.
+  void pop() {
+    const int node = nextNode();
+    List& list = lists_[node];
+    if (--list.count > 0) {
       sink(entry(list.pushes[list.count - 1].key_s, node));
     } else {
       dropFirst();
     }
     if (!heap_.empty()) __builtin_prefetch(&lists_[nextNode()]);
-    return {node, first.index};
   }
 
   /// Leaves out all of the next node. @pre Not empty.

@@ -141,6 +141,7 @@ class ExpRrt : public ompl::base::Planner {
   bool isImproving() const { return !solutions_.empty(); }
   bool mustStop(std::size_t work);
   std::optional<EdgeQueue::Edge> chooseEdge();
+  std::optional<Outlook> lookAgain(const EdgeQueue::Edge& edge);
   int selectOpen(const Pose2& target);
   int selectCheapestNear(const Pose2& target);
   int selectMostSimilar(const Pose2& target) const;
@@ -160,7 +161,8 @@ class ExpRrt : public ompl::base::Planner {
   double pushCost(int node, int push) const;
   double chainCost(int node, const CaseChain& chain) const;
   double remaining(const Eigen::Vector2d& position_m) const;
-  double expected(const Eigen::Vector2d& position_m, double yaw_rad);
+  GoalGuide::Way wayToGoal(const Eigen::Vector2d& position_m, bool exactly) const;
+  EdgeQueue::Push weigh(const Outlook& outlook, bool exactly) const;
   bool isInGoal(const Eigen::Vector2d& position_m, double yaw_rad) const;
   bool isHopeless(double cost_s, const Eigen::Vector2d& position_m) const;
   void addSolutionPath(int node);

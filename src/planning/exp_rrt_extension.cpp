@@ -63,14 +63,21 @@ bool ExpRrt::isInGoal(const Eigen::Vector2d& position_m, double yaw_rad) const {
          goal_->tolerance().isMet(goal_->pose(), {position_m.x(), position_m.y(), yaw_rad});
 }
 
-// What is left by the guide, in the metric of the tree.
-double ExpRrt::expected(const Eigen::Vector2d& position_m, double yaw_rad) {
-  const Pose2& goal = goal_->pose();
-  const double way_m =
-      guide_ != nullptr ? guide_->at(position_m) : (position_m - goal.position()).norm();
-  const double turn_m = options_.gyration_radius_m * wrapTurn(yaw_rad - goal.yaw());
-  return set_->time.lowerBound(std::sqrt(way_m * way_m + turn_m * turn_m) -
-                               goal_->tolerance().position_m);
+GoalGuide::Way ExpRrt::wayToGoal(const Eigen::Vector2d& position_m, bool exactly) const {
+  if (guide_ == nullptr) return {(position_m - goal_->pose().position()).norm(), true};
+  if (exactly) return {guide_->at(position_m), true};
+  return guide_->atLeast(position_m);
+}
+
+// What a push promises. What is left is the way by the guide, in the metric of the tree.
+EdgeQueue::Push ExpRrt::weigh(const Outlook& outlook, bool exactly) const {
+  const GoalGuide::Way way = wayToGoal(outlook.end_m, exactly);
+  const double turn_m =
+      options_.gyration_radius_m * wrapTurn(outlook.end_yaw_rad - goal_->pose().yaw());
+  const double left_s = set_->time.lowerBound(
+      std::sqrt(way.length_m * way.length_m + turn_m * turn_m) - goal_->tolerance().position_m);
+  const double greed = isImproving() ? options_.improving_greed : options_.greed;
+  return {static_cast<float>(outlook.cost_s + greed * left_s), outlook.push, !way.is_exact};
 }
 
 ExpRrt::Outlook ExpRrt::outlook(int node, int push, const PushStart& start) const {
@@ -93,12 +100,9 @@ void ExpRrt::noteEdges(int node) {
     outlooks_.push_back(outlook(node, push, start));
     tree_.fetchCoverage(outlooks_.back().cell);
   });
-  const double greed = isImproving() ? options_.improving_greed : options_.greed;
   noted_.clear();
   for (const Outlook& each : outlooks_) {
-    if (isPointless(node, each)) continue;
-    const double key_s = each.cost_s + greed * expected(each.end_m, each.end_yaw_rad);
-    noted_.push_back({static_cast<float>(key_s), each.push});
+    if (!isPointless(node, each)) noted_.push_back(weigh(each, false));
   }
   edges_.add(node, &noted_);
 }
@@ -120,18 +124,30 @@ std::optional<EdgeQueue::Edge> ExpRrt::chooseEdge() {
       edges_.dropFirst();
       continue;
     }
-    const auto [node, push] = edges_.pop();
-    if (!edges_.empty()) tree_.fetch(edges_.nextNode());
-    if (push == EdgeQueue::kMore) {
-      noteEdges(node);
+    const EdgeQueue::Edge edge = edges_.first();
+    if (edge.push == EdgeQueue::kMore) {
+      edges_.dropFirst();
+      noteEdges(edge.node);
       continue;
     }
-    if (tree_.isTried(node, push)) continue;
-    const PushStart start(tree_.node(node).map_T_object);
-    if (isPointless(node, outlook(node, push, start))) continue;
-    if (isReachable(node) && isSafe(node, push)) return EdgeQueue::Edge{node, push};
+    const std::optional<Outlook> looked = lookAgain(edge);
+    if (looked && edge.is_rough) {
+      edges_.refineFirst(weigh(*looked, true).key_s);
+      continue;
+    }
+    edges_.pop();
+    if (!edges_.empty()) tree_.fetch(edges_.nextNode());
+    if (looked && isReachable(edge.node) && isSafe(edge.node, edge.push)) return edge;
   }
   return std::nullopt;
+}
+
+// Nothing if the edge is no longer worth trying.
+std::optional<ExpRrt::Outlook> ExpRrt::lookAgain(const EdgeQueue::Edge& edge) {
+  if (tree_.isTried(edge.node, edge.push)) return std::nullopt;
+  const PushStart start(tree_.node(edge.node).map_T_object);
+  const Outlook looked = outlook(edge.node, edge.push, start);
+  return isPointless(edge.node, looked) ? std::nullopt : std::make_optional(looked);
 }
 
 // Asked before anything is pushed on from a node: most nodes of a tree never come so far.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "casepush/world/shadow.h"
@@ -18,9 +19,8 @@ constexpr double kHalfStraight = 12.0;
 constexpr double kHalfDiagonal = 17.0;
 constexpr int kStraight = static_cast<int>(2.0 * kHalfStraight);
 constexpr int kDiagonal = static_cast<int>(2.0 * kHalfDiagonal);
-// The estimate may grow by one open step.
-constexpr int kLongestStep = static_cast<int>(kDiagonal * ObjectRoom::kTight) + kDiagonal;
-constexpr float kUnknown = -1.0F;  // length of a way
+constexpr int kLongestStep = static_cast<int>(kDiagonal * ObjectRoom::kTight);
+constexpr float kUnknown = -std::numeric_limits<float>::infinity();  // length of a way
 
 }  // namespace
 
@@ -36,6 +36,7 @@ ObjectRoom::ObjectRoom(const CollisionChecker::Columns& columns, const Solid& ob
       reach_m_(circumscribedRadius(object)),
       factors_(static_cast<std::size_t>(width_) * height_, 0.0F) {
   look(columns, {0, columns.width - 1, 0, columns.height - 1}, patience);
+  setLandmarks(patience);
 }
 
 ObjectRoom ObjectRoom::updated(const CollisionChecker::Columns& columns,
@@ -47,6 +48,7 @@ ObjectRoom ObjectRoom::updated(const CollisionChecker::Columns& columns,
   box = {box.x0 / side_ * side_, std::min(columns.width - 1, box.x1 / side_ * side_ + side_ - 1),
          box.y0 / side_ * side_, std::min(columns.height - 1, box.y1 / side_ * side_ + side_ - 1)};
   result.look(columns, box, Patience());
+  result.setLandmarks(Patience());
   return result;
 }
 
@@ -68,6 +70,10 @@ void ObjectRoom::look(const CollisionChecker::Columns& columns, const CellBox& b
     const float here = factor(around.clearance(cell));
     value = value > 0.0F ? std::min(value, here) : here;
   }
+}
+
+void ObjectRoom::setLandmarks(const Patience& patience) {
+  landmarks_ = RoomLandmarks(halfSteps({}), width_ + 2, kLongestStep, patience);
 }
 
 float ObjectRoom::factor(double clearance_m) const {
@@ -151,7 +157,8 @@ GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<HalfSteps>& half_
       last_(room.width() - 1.0, room.height() - 1.0),
       cells_per_m_(1.0 / room.cell()),
       half_steps_(half_steps.data()),
-      flood_(static_cast<int>(half_steps.size()), stride_, kLongestStep),
+      // The estimate may grow by as much as the step takes.
+      flood_(static_cast<int>(half_steps.size()), stride_, 2 * kLongestStep),
       way_m_(half_steps.size(), kUnknown) {
   const int start = cell(start_m);
   const int goal = cell(goal_m);
@@ -161,6 +168,8 @@ GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<HalfSteps>& half_
     freed_[end] = {kStraight / 2, kDiagonal / 2};
     half_steps_ = freed_.data();
   }
+  start_ = start;
+  goal_ = goal;
   start_x_ = start % stride_;
   start_y_ = start / stride_;
   reaches_start_ = reach(start, {goal});
@@ -170,8 +179,10 @@ GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<HalfSteps>& half_
   reaches_start_ = reach(start, region(tolerance_m));
 }
 
-// The length of an open way from there to the start.
+// How long a way from there to the start is at least.
 int GoalGuide::estimate(int cell) const {
+  // To cells that are not free the landmarks know no way.
+  if (freed_.empty()) return room_.landmarks().between(start_, cell);
   const int row = rowOf(cell);
   const int across = std::abs(cell - row * stride_ - start_x_);
   const int up = std::abs(row - start_y_);
@@ -224,15 +235,25 @@ void GoalGuide::settle(int cell) {
   }
 }
 
+// Says how long the way from a cell is at least.
+void GoalGuide::bound(int cell) {
+  if (way_m_[cell] != kUnknown) return;
+  if (half_steps_[cell].straight == 0 || !freed_.empty()) {
+    settle(cell);
+    return;
+  }
+  constexpr float kLeast_m = 1e-3F;
+  const double unit_m = room_.cell() / kStraight;
+  const auto least_m = static_cast<float>(unit_m * room_.landmarks().between(goal_, cell));
+  way_m_[cell] = -std::clamp(least_m, kLeast_m, far_m_);
+}
+
 template <typename Estimate>
 void GoalGuide::spread(int cell, const Estimate& estimate) {
   const double unit_m = room_.cell() / kStraight;
   flood_.spread(
       [this](int from, int to, bool is_diagonal) {
-        const HalfSteps& there = half_steps_[to];
-        if (there.straight == 0) return 0;
-        const HalfSteps& here = half_steps_[from];
-        return is_diagonal ? here.diagonal + there.diagonal : here.straight + there.straight;
+        return HalfSteps::step(half_steps_[from], half_steps_[to], is_diagonal);
       },
       [this, cell, unit_m](int at, int now) {
         way_m_[at] = static_cast<float>(unit_m * now);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,15 +13,9 @@
 #include "casepush/world/collision_checker.h"
 #include "clearance_grid.h"
 #include "grid_flood.h"
+#include "room_landmarks.h"
 
 namespace casepush {
-
-/// Halves of the lengths of a way through a cell, in whole numbers: a step takes those of both its
-/// cells. 0 where there is no way.
-struct HalfSteps {
-  std::uint8_t straight = 0;
-  std::uint8_t diagonal = 0;
-};
 
 /// How much room a map leaves an object, in cells of about 20 cm. Made once for map and object.
 class ObjectRoom {
@@ -47,12 +42,16 @@ class ObjectRoom {
   /// some headings fit; nothing leads where the object's origin certainly cannot be.
   std::vector<HalfSteps> halfSteps(const std::vector<PlacedSolid>& obstacles) const;
 
+  /// Of the room without obstacles.
+  const RoomLandmarks& landmarks() const { return landmarks_; }
+
   static constexpr double kTight = 3.0;
 
  private:
   std::vector<float> factors(const std::vector<PlacedSolid>& obstacles) const;
   float factor(double clearance_m) const;
   void look(const CollisionChecker::Columns& columns, const CellBox& box, const Patience& patience);
+  void setLandmarks(const Patience& patience);
 
   Eigen::Vector2d origin_m_;
   int side_;  ///< Cells of the map in one of these.
@@ -63,6 +62,7 @@ class ObjectRoom {
   std::vector<TravelDisc> outer_;
   double reach_m_;  ///< Of the object around its origin.
   std::vector<float> factors_;
+  RoomLandmarks landmarks_;
 };
 
 /// The rooms of all objects on one map, each made when it is first asked for. Thread-safe.
@@ -103,8 +103,21 @@ class GoalGuide {
   /// goal region.
   bool reachesStart() const { return reaches_start_; }
 
-  double at(const Eigen::Vector2d& point_m) {  ///< [m]
-    // Bilinear between the centres of cells.
+  double at(const Eigen::Vector2d& point_m) { return look<true>(point_m).length_m; }  ///< [m]
+
+  struct Way {
+    double length_m;
+    bool is_exact;  ///< Or at() says more.
+  };
+  /// At least so far, without going on.
+  Way atLeast(const Eigen::Vector2d& point_m) { return look<false>(point_m); }
+
+ private:
+  static constexpr int kReciprocal = 40;  // Bits: exact for any map, at most 4096 x 4096 cells.
+
+  // Bilinear between the centres of cells.
+  template <bool goes_on>
+  Way look(const Eigen::Vector2d& point_m) {
     const double fx = std::clamp((point_m.x() - low_m_.x()) * cells_per_m_, 0.0, last_.x());
     const double fy = std::clamp((point_m.y() - low_m_.y()) * cells_per_m_, 0.0, last_.y());
     const int x = static_cast<int>(fx);
@@ -112,18 +125,22 @@ class GoalGuide {
     const int cell = (y + 1) * stride_ + x + 1;
     const float* const below = &way_m_[cell];
     const float* const above = below + stride_;
-    if (std::min(std::min(below[0], below[1]), std::min(above[0], above[1])) < 0.0F) {
-      for (const int corner : {cell, cell + 1, cell + stride_, cell + stride_ + 1}) settle(corner);
+    const auto isExact = [below, above] {
+      return std::min(std::min(below[0], below[1]), std::min(above[0], above[1])) >= 0.0F;
+    };
+    bool is_exact = isExact();
+    if (!is_exact) {
+      for (const int corner : {cell, cell + 1, cell + stride_, cell + stride_ + 1}) {
+        goes_on ? settle(corner) : bound(corner);
+      }
+      is_exact = isExact();
     }
     const double tx = fx - x;
     const double ty = fy - y;
-    const double way_m = (1.0 - ty) * ((1.0 - tx) * below[0] + tx * below[1]) +
-                         ty * ((1.0 - tx) * above[0] + tx * above[1]);
-    return std::max(way_m, (point_m - goal_m_).norm());
+    const double way_m = (1.0 - ty) * ((1.0 - tx) * std::abs(below[0]) + tx * std::abs(below[1])) +
+                         ty * ((1.0 - tx) * std::abs(above[0]) + tx * std::abs(above[1]));
+    return {std::max(way_m, (point_m - goal_m_).norm()), is_exact};
   }
-
- private:
-  static constexpr int kReciprocal = 40;  // Bits: exact for any map, at most 4096 x 4096 cells.
 
   int cell(const Eigen::Vector2d& point_m) const;
   int rowOf(int cell) const {
@@ -133,6 +150,7 @@ class GoalGuide {
   std::vector<int> region(double tolerance_m) const;
   bool reach(int start, const std::vector<int>& goals);
   void settle(int cell);
+  void bound(int cell);
   template <typename Estimate>
   void spread(int cell, const Estimate& estimate);
 
@@ -148,10 +166,13 @@ class GoalGuide {
   GridFlood flood_;
   int start_x_ = 0;  // Where the estimate leads.
   int start_y_ = 0;
+  int start_ = 0;
+  int goal_ = 0;
   bool is_estimated_ = false;
   bool reaches_start_ = false;
-  float far_m_ = 0.0F;        // What lies farther away is not told apart.
-  std::vector<float> way_m_;  // from each cell to the goal; negative: not yet known
+  float far_m_ = 0.0F;  // What lies farther away is not told apart.
+  // From each cell to the goal; negative: at least so long, or unknown.
+  std::vector<float> way_m_;
 };
 
 }  // namespace casepush
