@@ -21,6 +21,8 @@ class EdgeQueue {
     /// The key may be too small: who finds it first says the right one.
     bool is_rough : 1;
 
+    Push() = default;
+    Push(float key, int push, bool rough = false) : key_s(key), index(push), is_rough(rough) {}
     bool operator<(const Push& other) const {
       return key_s != other.key_s ? key_s < other.key_s : index < other.index;
     }

@@ -18,9 +18,10 @@ void add(EdgeQueue* queue, int node, std::vector<Push> pushes) { queue->add(node
 void expectNext(EdgeQueue* queue, int node, int push) {
   ASSERT_FALSE(queue->empty());
   EXPECT_EQ(queue->nextNode(), node);
-  const EdgeQueue::Edge edge = queue->pop();
+  const EdgeQueue::Edge edge = queue->first();
   EXPECT_EQ(edge.node, node);
   EXPECT_EQ(edge.push, push);
+  queue->pop();
 }
 
 TEST(EdgeQueue, givesTheMostPromisingFirst) {
@@ -54,6 +55,23 @@ TEST(EdgeQueue, keepsTheBestOfManyAndSaysThatThereAreMore) {
   expectNext(&queue, 1, 3);
   expectNext(&queue, 0, EdgeQueue::kMore);
   expectNext(&queue, 1, 4);
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(EdgeQueue, putsRoughOnesWhereTheyBelong) {
+  EdgeQueue queue;
+  add(&queue, 0, {{1.0F, 0, true}, {2.0F, 1, false}, {5.0F, 2, true}});
+  add(&queue, 1, {{3.0F, 4, false}});
+  EXPECT_TRUE(queue.first().is_rough);
+  queue.refineFirst(4.0F);
+  EXPECT_FALSE(queue.first().is_rough);
+  expectNext(&queue, 0, 1);
+  expectNext(&queue, 1, 4);
+  EXPECT_FALSE(queue.first().is_rough);
+  expectNext(&queue, 0, 0);
+  EXPECT_TRUE(queue.first().is_rough);
+  queue.refineFirst(5.0F);
+  expectNext(&queue, 0, 2);
   EXPECT_TRUE(queue.empty());
 }
 

@@ -73,6 +73,31 @@ TEST(GoalGuide, answersTheSameInAnyOrder) {
   EXPECT_GT(*std::max_element(ways_m.begin(), ways_m.end()), 10.0);
 }
 
+TEST(GoalGuide, boundsTheWaysWithoutGoingOn) {
+  const CollisionChecker checker(*mapOf(furnishedRoom()));
+  const ObjectRoom room(checker.columns(), testChair().solid);
+  const std::vector<PlacedSolid> chairs = {{testChair().solid, Pose2(7.5, 7.2, 0.3)},
+                                           {testChair().solid, Pose2(6.5, 6.4, 1.0)}};
+  Guided asked(room, chairs);
+  Guided all(room, chairs);
+  Random random(5);
+  int rough = 0;
+  double lacking_m = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const Eigen::Vector2d point(random.uniform(-1.0, 16.0), random.uniform(-1.0, 16.0));
+    const GoalGuide::Way way = asked.guide.atLeast(point);
+    const double exact_m = all.at(point);
+    rough += way.is_exact ? 0 : 1;
+    lacking_m += exact_m - way.length_m;
+    EXPECT_LE(way.length_m, exact_m + 2e-3) << point.transpose();
+    if (way.is_exact || i % 40 == 39) {
+      EXPECT_EQ(asked.at(point), exact_m) << point.transpose();
+    }
+  }
+  EXPECT_GT(rough, 50);
+  EXPECT_LT(lacking_m / 400, 0.5);
+}
+
 TEST(GoalGuide, seesThatThereIsNoWay) {
   const CollisionChecker checker(*mapOf(roomWithWall(15.0)));
   const ObjectRoom room(checker.columns(), testChair().solid);
