@@ -48,7 +48,7 @@ ObjectRoom ObjectRoom::updated(const CollisionChecker::Columns& columns,
   box = {box.x0 / side_ * side_, std::min(columns.width - 1, box.x1 / side_ * side_ + side_ - 1),
          box.y0 / side_ * side_, std::min(columns.height - 1, box.y1 / side_ * side_ + side_ - 1)};
   result.look(columns, box, Patience());
-  result.setLandmarks(Patience());
+  result.landmarks_ = RoomLandmarks();
   return result;
 }
 
@@ -73,7 +73,9 @@ void ObjectRoom::look(const CollisionChecker::Columns& columns, const CellBox& b
 }
 
 void ObjectRoom::setLandmarks(const Patience& patience) {
-  landmarks_ = RoomLandmarks(halfSteps({}), width_ + 2, kLongestStep, patience);
+  if (!landmarks_.empty()) return;
+  RoomLandmarks made(halfSteps({}), width_ + 2, kLongestStep, patience);
+  if (!patience.isOver()) landmarks_ = std::move(made);
 }
 
 float ObjectRoom::factor(double clearance_m) const {
@@ -141,7 +143,10 @@ std::shared_ptr<RoomLibrary> RoomLibrary::updated(const CollisionChecker& map,
 const ObjectRoom* RoomLibrary::get(const std::string& model, const Patience& patience) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto found = rooms_.find(model);
-  if (found != rooms_.end()) return &found->second;
+  if (found != rooms_.end()) {
+    found->second.setLandmarks(patience);
+    return patience.isOver() ? nullptr : &found->second;
+  }
   ObjectRoom room(*columns_, objects_.at(model).solid, patience);
   return patience.isOver() ? nullptr : &rooms_.emplace(model, std::move(room)).first->second;
 }
@@ -168,6 +173,8 @@ GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<HalfSteps>& half_
     freed_[end] = {kStraight / 2, kDiagonal / 2};
     half_steps_ = freed_.data();
   }
+  // To cells that are not free they know no way.
+  has_landmarks_ = freed_.empty() && !room_.landmarks().empty();
   start_ = start;
   goal_ = goal;
   start_x_ = start % stride_;
@@ -181,8 +188,7 @@ GoalGuide::GoalGuide(const ObjectRoom& room, const std::vector<HalfSteps>& half_
 
 // How long a way from there to the start is at least.
 int GoalGuide::estimate(int cell) const {
-  // To cells that are not free the landmarks know no way.
-  if (freed_.empty()) return room_.landmarks().between(start_, cell);
+  if (has_landmarks_) return room_.landmarks().between(start_, cell);
   const int row = rowOf(cell);
   const int across = std::abs(cell - row * stride_ - start_x_);
   const int up = std::abs(row - start_y_);
@@ -238,7 +244,7 @@ void GoalGuide::settle(int cell) {
 // Says how long the way from a cell is at least.
 void GoalGuide::bound(int cell) {
   if (way_m_[cell] != kUnknown) return;
-  if (half_steps_[cell].straight == 0 || !freed_.empty()) {
+  if (half_steps_[cell].straight == 0 || !has_landmarks_) {
     settle(cell);
     return;
   }

@@ -24,7 +24,8 @@ class ObjectRoom {
   ObjectRoom(const CollisionChecker::Columns& columns, const Solid& object,
              const Patience& patience = Patience());
 
-  /// For columns of the same extent that differ only within an area: as if made anew.
+  /// For columns of the same extent that differ only within an area: as if made anew, but for the
+  /// landmarks, which somebody may want to set.
   ObjectRoom updated(const CollisionChecker::Columns& columns,
                      const CollisionChecker::Area& changed) const;
 
@@ -42,8 +43,10 @@ class ObjectRoom {
   /// some headings fit; nothing leads where the object's origin certainly cannot be.
   std::vector<HalfSteps> halfSteps(const std::vector<PlacedSolid>& obstacles) const;
 
-  /// Of the room without obstacles.
+  /// Of the room without obstacles; empty if nobody has set them since an update.
   const RoomLandmarks& landmarks() const { return landmarks_; }
+  /// @param patience  Once it is over, there are none.
+  void setLandmarks(const Patience& patience);
 
   static constexpr double kTight = 3.0;
 
@@ -51,7 +54,6 @@ class ObjectRoom {
   std::vector<float> factors(const std::vector<PlacedSolid>& obstacles) const;
   float factor(double clearance_m) const;
   void look(const CollisionChecker::Columns& columns, const CellBox& box, const Patience& patience);
-  void setLandmarks(const Patience& patience);
 
   Eigen::Vector2d origin_m_;
   int side_;  ///< Cells of the map in one of these.
@@ -168,6 +170,7 @@ class GoalGuide {
   int start_y_ = 0;
   int start_ = 0;
   int goal_ = 0;
+  bool has_landmarks_ = false;
   bool is_estimated_ = false;
   bool reaches_start_ = false;
   float far_m_ = 0.0F;  // What lies farther away is not told apart.

@@ -36,6 +36,8 @@ class RoomLandmarks {
   RoomLandmarks(const std::vector<HalfSteps>& half_steps, int stride, int longest_step,
                 const Patience& patience);
 
+  bool empty() const { return lengths_.empty(); }
+
   /// Between a cell where there is a way and any other. A step to a neighbour changes it by no more
   /// than the step takes.
   int between(int cell, int other) const {
