@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 
 #include <cctype>
+#include <chrono>
 
 #include "casepush/common/check.h"
 
@@ -112,13 +113,15 @@ void SqliteDatabase::execute(const std::string& sql) {
 
 // SQLite itself does not wait for other programs while it changes the mode.
 void SqliteDatabase::useWriteAheadLog() {
+  using Clock = std::chrono::steady_clock;
   constexpr int kPauseMs = 5;
+  const auto deadline = Clock::now() + std::chrono::milliseconds(kBusyTimeoutMs);
   const auto change = [this] {
     return sqlite3_exec(handle_.get(), "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
   };
   int code = change();
-  for (int waited_ms = 0; code == SQLITE_BUSY && waited_ms < kBusyTimeoutMs;) {
-    waited_ms += sqlite3_sleep(kPauseMs);
+  while (code == SQLITE_BUSY && Clock::now() < deadline) {
+    sqlite3_sleep(kPauseMs);
     code = change();
   }
   if (code != SQLITE_OK) {

@@ -11,8 +11,9 @@ namespace {
 // An object that is off its course by no more than the scatter of what is seen of it is on it.
 constexpr double kOnCourse_m = 0.02;
 constexpr double kOnCourse_rad = 0.07;
-// Objects set off now earlier, now later.
-constexpr double kSlack_s = 0.3;
+// Objects set off now earlier, now later, and a load slows them down.
+constexpr double kEarly_s = 0.3;
+constexpr double kLate_s = 0.6;
 // How far ahead: what takes longer can still be seen later.
 constexpr double kAhead_s = 1.0;
 
@@ -37,9 +38,10 @@ CollisionWatch::CollisionWatch(const Case& push_case, TouchCheck check)
 
 void CollisionWatch::begin(const Observation& observation, const Pose2& map_T_start) {
   map_T_start_ = map_T_start;
-  std::vector<Pose2> map_course;
-  for (const Pose2& start_T_object : course_) map_course.push_back(map_T_start * start_T_object);
-  watches_ = check_(observation, map_course).empty();
+  const auto free = std::find_if(course_.begin(), course_.end(), [&](const Pose2& at) {
+    return check_(observation, {map_T_start * at}).empty();
+  });
+  watched_from_ = static_cast<std::size_t>(free - course_.begin());
 }
 
 // The step of the course that fits best tells how far the object has come.
@@ -52,22 +54,22 @@ std::vector<Pose2> CollisionWatch::courseFrom(const Pose2& start_T_object,
   const auto nearer = [&](const Pose2& a, const Pose2& b) {
     return offCourse(a, start_T_object) < offCourse(b, start_T_object);
   };
-  const auto now = std::min_element(stepAt(push_time_s - kSlack_s),
-                                    std::next(stepAt(push_time_s + kSlack_s)), nearer);
+  const auto now = std::min_element(stepAt(push_time_s - kLate_s),
+                                    std::next(stepAt(push_time_s + kEarly_s)), nearer);
   const bool is_on_course = offCourse(*now, start_T_object) <= 1.0;
   const Pose2 map_T_course =
       is_on_course ? map_T_start_ : map_T_start_ * start_T_object * now->inverse();
+  const auto first = std::max(now, course_.begin() + static_cast<std::ptrdiff_t>(watched_from_));
   const auto end = std::next(stepAt(period_s_ * std::distance(course_.begin(), now) + kAhead_s));
   std::vector<Pose2> ahead;
-  std::transform(now, end, std::back_inserter(ahead),
-                 [&](const Pose2& at) { return map_T_course * at; });
+  for (auto at = first; at < end; ++at) ahead.push_back(map_T_course * *at);
   return ahead;
 }
 
 const std::string& CollisionWatch::aheadOf(const Observation& observation, double push_time_s,
                                            const ObjectState& object) {
   const bool is_new = !last_stamp_s_ || object.stamp_s > *last_stamp_s_;
-  if (!watches_ || !is_new) return ahead_of_;
+  if (!is_new) return ahead_of_;
   last_stamp_s_ = object.stamp_s;
   const Pose2 start_T_object = map_T_start_.inverse() * object.map_T_object;
   const std::string touched = check_(observation, courseFrom(start_T_object, push_time_s));

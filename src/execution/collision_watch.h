@@ -18,8 +18,8 @@ class CollisionWatch {
  public:
   CollisionWatch(const Case& push_case, TouchCheck check);
 
-  /// To be called when the push begins. If the course touches something even then, a cell of the
-  /// map at whose border the object stands, nothing is said during this push.
+  /// To be called when the push begins. What the object touches where it stands, like a cell of the
+  /// map at a wall, is no reason to stop: the course is watched from where it would be free.
   void begin(const Observation& observation, const Pose2& map_T_start);
 
   /// What the object is about to touch; empty: nothing, or not twice in a row. To be asked at each
@@ -35,7 +35,7 @@ class CollisionWatch {
   double period_s_;
   std::vector<Pose2> course_;  ///< start_T_object, at rest at the end.
   Pose2 map_T_start_;
-  bool watches_ = false;
+  std::size_t watched_from_ = 0;  ///< Step of the course.
   std::optional<double> last_stamp_s_;
   bool seen_once_ = false;
   std::string ahead_of_;

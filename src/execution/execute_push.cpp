@@ -68,6 +68,10 @@ bool isObservation(const PushReport& report) {
          report.outcome == PushOutcome::kBrokenOff;
 }
 
+bool wasMade(const PushReport& report) {
+  return isObservation(report) || report.outcome == PushOutcome::kStoppedShort;
+}
+
 struct ExecutePush::Data {
   Data(std::string id, std::optional<Case> replayed, PushTrajectory push_trajectory,
        RobotModel robot_model, ApproachPlanner approach_planner,
@@ -170,15 +174,17 @@ void ExecutePush::Data::conclude() {
                      ? testPrediction(past, start_T_end, options.alpha)
                      : testPlugIn(past, start_T_end, options.alpha);
   }
-  if (!ahead_of.empty()) {
+  const std::string stopped = "stopped before " + object_id + " touched " + ahead_of;
+  if (!ahead_of.empty() && !broken_off) {
     draft.test = {};
-    finish(PushOutcome::kStoppedShort, "stopped before " + object_id + " touched " + ahead_of);
+    finish(PushOutcome::kStoppedShort, stopped);
     return;
   }
   if (broken_off) {
     draft.test.rejected = true;
     draft.test.p_value = std::min(draft.test.p_value, tube->pValue());
-    finish(PushOutcome::kBrokenOff, "broken off: " + object_id + " was " + tube->describe());
+    const std::string why = ahead_of.empty() ? "broken off" : stopped;
+    finish(PushOutcome::kBrokenOff, why + ": " + object_id + " was " + tube->describe());
     return;
   }
   if (start_T_end.position().norm() < kNotMovedM && std::abs(start_T_end.yaw()) < kNotMovedRad) {
@@ -242,10 +248,14 @@ Twist2 ExecutePush::Data::pushTick(const Observation& observation) {
     finish(PushOutcome::kObjectLost, object_id + " was lost from sight during the push");
     return Twist2{};
   }
-  if (ahead) ahead_of = ahead->aheadOf(observation, push_time_s, *object);
   broken_off = hasLeftTube();
-  const bool is_over =
-      broken_off || !ahead_of.empty() || push_time_s >= trajectory.durationS() - 1e-6;
+  bool is_over = broken_off || push_time_s >= trajectory.durationS() - 1e-6;
+  if (!is_over && ahead) {
+    ahead_of = ahead->aheadOf(observation, push_time_s, *object);
+    is_over = !ahead_of.empty();
+    // Off its course, it also tells that the case is wrong.
+    broken_off = is_over && tube && tube->isOutside();
+  }
   const Twist2 wanted = is_over ? Twist2{} : followPush(observation);
   recorder->add(push_time_s, observation.map_T_robot, object->map_T_object, wanted);
   if (is_over) {

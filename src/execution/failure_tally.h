@@ -27,7 +27,7 @@ class FailureTally {
   static bool isNoFaultOfThePush(PushOutcome outcome);
 
  private:
-  std::array<int, static_cast<std::size_t>(PushOutcome::kBlocked) + 1> counts_{};
+  std::array<int, static_cast<std::size_t>(kLastPushOutcome) + 1> counts_{};
   int out_of_sight_in_row_ = 0;
 };
 

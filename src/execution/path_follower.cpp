@@ -17,8 +17,10 @@ constexpr double kCutM = 0.015;
 constexpr double kEndCutM = 0.005;  // Beside an object.
 constexpr double kCornerStepMps = 0.15;
 constexpr double kCornerStepRps = 0.4;
-// The rest of what the robot can do is left to feedback.
+// Along the path, and towards the centre of an arc. The rest of what the robot can do is left to
+// feedback.
 constexpr double kAccelerationShare = 0.85;
+constexpr double kCentripetalShare = 0.5;
 // Errors at which the reference slows down and at which it waits for the robot.
 constexpr double kSlowErrorM = 0.05;
 constexpr double kWaitErrorM = 0.12;
@@ -53,10 +55,10 @@ double share(double error, double slow, double wait) {
 
 PathFollower::PathFollower(std::vector<Pose2> waypoints, const RobotLimits& limits,
                            const Speeds& speeds)
-    : limits_(limits), speeds_(speeds) {
+    : speeds_(speeds) {
   CASEPUSH_CHECK(!waypoints.empty(), "path without waypoints");
   const CornerLimits corners{kCutM, kEndCutM, kCornerStepMps,
-                             kAccelerationShare * limits.max_acceleration_mps2};
+                             kCentripetalShare * limits.max_acceleration_mps2};
   RoundedPath rounded = roundCorners(waypoints, corners);
   waypoints_ = std::move(rounded.waypoints);
   speeds_.cruise_mps = std::min(speeds.cruise_mps, limits.max_speed_mps);

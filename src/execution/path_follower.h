@@ -33,7 +33,6 @@ class PathFollower {
   double speedBefore(std::size_t waypoint, double travelled) const;
   Reference reference() const;
 
-  RobotLimits limits_;
   Speeds speeds_;
   std::vector<Pose2> waypoints_;
   std::vector<double> reach_;         ///< Length from the start to each waypoint.

@@ -79,6 +79,7 @@ struct PushTask::Data {
   bool isLimitReached();
   void startPush(const Observation& observation);
   void concludePush(const PushReport& report, const Observation& observation);
+  bool endAtGoal(const Observation& observation);
   void judgeOutcome(const PushReport& report, const Observation& observation);
   void goOn(const PushReport& report, const ObjectState& object, const Observation& observation);
   bool beginRepair(const RestVerdict& verdict, const PushPlan& rest_of_plan,

@@ -70,7 +70,7 @@ Tick PushTask::Data::pushOn(const Observation& observation) {
   }
   const PushReport report = *push->report();
   push.reset();
-  if (isObservation(report) || report.outcome == PushOutcome::kStoppedShort) {
+  if (wasMade(report)) {
     ++progress.pushes;
     ++progress.pushes_per_plan.back();
     ++progress.pushes_unchanged.back();
@@ -110,7 +110,9 @@ void PushTask::Data::concludePush(const PushReport& report, const Observation& o
       return;
     case PushOutcome::kStoppedShort:
       failed_approaches = 0;
-      replan(ReplanCause::kStoppedShort, report.explanation, observation);
+      if (!endAtGoal(observation)) {
+        replan(ReplanCause::kStoppedShort, report.explanation, observation);
+      }
       return;
     case PushOutcome::kObjectLost:
     case PushOutcome::kTimeout:
@@ -120,14 +122,22 @@ void PushTask::Data::concludePush(const PushReport& report, const Observation& o
   }
 }
 
+bool PushTask::Data::endAtGoal(const Observation& observation) {
+  const ObjectState* object = usableObject(observation, goal.object_id);
+  if (object == nullptr || !isSafelyAtGoal(goal, *object, options)) {
+    return false;
+  }
+  end(PushTaskStatus::kSucceeded, goal.object_id + " is at the goal");
+  return true;
+}
+
 void PushTask::Data::judgeOutcome(const PushReport& report, const Observation& observation) {
   const ObjectState* object = usableObject(observation, goal.object_id);
   if (object == nullptr) {
     replan(ReplanCause::kPushFailed, goal.object_id + " is not in sight", observation);
     return;
   }
-  if (isSafelyAtGoal(goal, *object, options)) {
-    end(PushTaskStatus::kSucceeded, goal.object_id + " is at the goal");
+  if (endAtGoal(observation)) {
     return;
   }
   plan->pushes.erase(plan->pushes.begin());

@@ -20,6 +20,9 @@ class TubeWatch {
   /// @return True once the object has been outside for long enough.
   bool hasLeft(double push_time_s, double stamp_s, const Pose2& start_T_object);
 
+  /// Was the last pose outside, for however short a time?
+  bool isOutside() const { return outside_since_s_.has_value(); }
+
   /// Probability of a pose as far off as the last one, at the time that fits best.
   double pValue() const { return p_value_; }
 

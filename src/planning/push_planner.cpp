@@ -335,10 +335,12 @@ void PushPlanner::Data::improve(const PlanRequest& request, const std::vector<co
 std::string PushPlanner::touched(const std::string& model, const std::vector<Pose2>& map_T_object,
                                  const std::vector<PlacedObject>& obstacles) const {
   const auto found = data_->footprints.find(model);
-  if (found == data_->footprints.end() || !checkObstacles(obstacles, data_->objects).empty()) {
-    return "";
-  }
-  const std::vector<PlacedSolid> placed = placeObstacles(obstacles, data_->objects);
+  if (found == data_->footprints.end()) return "";
+  std::vector<PlacedObject> known;
+  std::copy_if(
+      obstacles.begin(), obstacles.end(), std::back_inserter(known),
+      [this](const PlacedObject& each) { return checkObstacles({each}, data_->objects).empty(); });
+  const std::vector<PlacedSolid> placed = placeObstacles(known, data_->objects);
   const CollisionChecker checker = data_->checkerWith(placed);
   const Footprint& exact = *found->second.exact;
   for (const Pose2& pose : map_T_object) {

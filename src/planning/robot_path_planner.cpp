@@ -266,13 +266,14 @@ struct RobotPathPlanner::Cache {
     std::shared_ptr<const ClearanceGrid> grid;
     std::shared_ptr<const Footprint> plain;
     std::shared_ptr<const Footprint> docking;
+    std::shared_ptr<const Footprint> travelling;
   };
 
   explicit Cache(std::vector<TravelDisc> discs_of_robot) : discs(std::move(discs_of_robot)) {}
 
   /// Without a grid if `patience` was over before that was made.
-  Prepared prepare(const CollisionChecker& checker, const Solid& robot, double dock_margin_m,
-                   const Patience& patience) {
+  Prepared prepare(const CollisionChecker& checker, const Solid& robot,
+                   const RobotPathOptions& options, const Patience& patience) {
     const std::lock_guard<std::mutex> lock(mutex);
     const auto columns = checker.mapColumns();
     if (prepared.columns == columns) return prepared;
@@ -283,7 +284,8 @@ struct RobotPathPlanner::Cache {
         !prepared.columns || prepared.columns->resolution_m != columns->resolution_m;
     if (other_resolution) {
       prepared.plain = checker.footprint(robot);
-      prepared.docking = checker.footprint(robot, dock_margin_m);
+      prepared.docking = checker.footprint(robot, options.dock_margin_m);
+      prepared.travelling = checker.footprint(robot, options.margin_m);
     }
     prepared.columns = columns;
     return prepared;
@@ -343,8 +345,7 @@ RobotPath RobotPathPlanner::planWith(const CollisionChecker& checker, const Pose
   if (!goal.isFinite() || !std::isfinite(dock_direction_rad)) {
     return failure("dock pose or direction is not finite");
   }
-  const Cache::Prepared prepared =
-      cache_->prepare(checker, robot_.solid, options_.dock_margin_m, patience);
+  const Cache::Prepared prepared = cache_->prepare(checker, robot_.solid, options_, patience);
   if (prepared.grid == nullptr) return {};
   for (const Contact& contact : checker.contacts(*prepared.plain, goal)) {
     const bool tolerated =
@@ -353,8 +354,12 @@ RobotPath RobotPathPlanner::planWith(const CollisionChecker& checker, const Pose
       return failure("dock pose blocked by " + describe(contact, checker.obstacles()));
   }
   if (distance(map_T_robot, goal) < kDirect_m) {
-    std::vector<Pose2> way =
-        shortWay(checker, *prepared.docking, map_T_robot, goal, dock_direction_rad);
+    std::vector<Pose2> way = shortWay(checker, *prepared.docking, *prepared.travelling, map_T_robot,
+                                      goal, dock_direction_rad);
+    if (way.empty() && !checker.collides(*prepared.docking, map_T_robot)) {
+      const StraightMotion direct(checker, *prepared.docking, {checker, *prepared.docking, goal});
+      if (!direct.firstBlock(map_T_robot, goal)) way = {map_T_robot, goal};
+    }
     if (!way.empty()) return alongWay(std::move(way));
   }
 

@@ -253,7 +253,7 @@ PushReport fromMessage(const ExecutedPush& message) {
   PushReport report;
   report.object_id = message.object_id;
   report.case_id = message.case_id;
-  report.outcome = enumFrom(message.outcome, PushOutcome::kBlocked, "push report: outcome");
+  report.outcome = enumFrom(message.outcome, kLastPushOutcome, "push report: outcome");
   report.explanation = message.explanation;
   report.start_stamp_s = message.start_stamp.toSec();
   report.end_stamp_s = message.end_stamp.toSec();

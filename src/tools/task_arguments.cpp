@@ -154,7 +154,7 @@ std::vector<Case> otherCases(const TaskArguments& arguments, const Task& task) {
 }
 
 nlohmann::ordered_json pushReportJson(const PushReport& report) {
-  if (!isObservation(report)) {
+  if (!wasMade(report)) {
     return {{"object", report.object_id},
             {"case", report.case_id},
             {"outcome", toString(report.outcome)},

@@ -37,7 +37,7 @@ constexpr Way kWays[] = {{"sigma_points", RiskModel::kSigmaPoints, 3.0},
 double pathLengthM(const PushRunResult& result) {
   double length_m = 0.0;
   for (const PushReport& report : result.reports) {
-    if (isObservation(report)) length_m += distance(report.map_T_start, report.map_T_end);
+    if (wasMade(report)) length_m += distance(report.map_T_start, report.map_T_end);
   }
   return length_m;
 }

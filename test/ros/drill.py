@@ -25,7 +25,8 @@ MAX_TURN_RPS = 1.0
 # Of simulated time, within which every task has to end, whatever happens to it.
 TIME_LIMIT_S = 240.0
 # Outcomes of pushes that were made.
-EXECUTED = (ExecutedPush.DONE, ExecutedPush.NOT_MOVED, ExecutedPush.BROKEN_OFF)
+EXECUTED = (ExecutedPush.DONE, ExecutedPush.NOT_MOVED, ExecutedPush.BROKEN_OFF,
+            ExecutedPush.STOPPED_SHORT)
 STATUS_NAMES = {value: name.lower() for name, value in vars(PushObjectResult).items()
                 if name.isupper() and isinstance(value, int)}
 

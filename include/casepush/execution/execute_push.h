@@ -98,6 +98,9 @@ struct ExecutePushOptions {
 /// the case (also if it missed the object, or was broken off): the outcome is
 /// `recorded.start_outcome.mean`.
 bool isObservation(const PushReport& report);
+/// True if the object was pushed, or missed, and came to rest where it was seen: an observation, or
+/// a push that was stopped short.
+bool wasMade(const PushReport& report);
 
 /// Gives a planner on the newest map.
 using PlannerSource = std::function<std::shared_ptr<const PushPlanner>()>;

@@ -28,6 +28,7 @@ enum class PushOutcome {
   kBlocked,       ///< The robot did not get along as commanded: something holds it.
   kStoppedShort,  ///< The object was about to touch something, so that the robot stopped.
 };
+inline constexpr PushOutcome kLastPushOutcome = PushOutcome::kStoppedShort;
 const char* toString(PushOutcome outcome);
 
 /// Everything known about one executed push. Poses are in the map frame unless named otherwise.

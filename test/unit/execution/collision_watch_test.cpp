@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "casepush/common/random.h"
@@ -98,10 +99,46 @@ TEST(CollisionWatch, warnsOfWhatComesIntoTheWayOfAnObjectOnItsCourse) {
   EXPECT_NEAR(*warned, 1.05, 1e-9);  // Seen twice.
 }
 
-TEST(CollisionWatch, isSilentIfTheCourseTouchesFromTheBeginning) {
-  Wall wall{-0.01};
-  EXPECT_FALSE(warnedAt(&wall, [](double t_s) { return turning(t_s, 0.5); }));
-  EXPECT_EQ(wall.asked, 1);
+TEST(CollisionWatch, isSilentAboutWhatTheCourseTouchesFromTheBeginning) {
+  const auto straight = [](double t_s) { return Pose2(0.25 * t_s, 0.0, 0.0); };
+  const auto warnedBefore = [&](double touched_m, const auto& course) {
+    bool is_there = false;
+    CollisionWatch watch(straightCase(), [&](const Observation&, const std::vector<Pose2>& poses) {
+      const bool touches = std::any_of(poses.begin(), poses.end(), [&](const Pose2& pose) {
+        return pose.x() < touched_m || (is_there && pose.x() > 0.4);
+      });
+      return std::string(touches ? "the wall" : "");
+    });
+    watch.begin(Observation{}, Pose2());
+    for (int i = 0; i <= 40; ++i) {
+      ObjectState object;
+      object.stamp_s = 100.0 + kTick_s * i;
+      object.map_T_object = course(kTick_s * i);
+      if (!watch.aheadOf(Observation{}, kTick_s * i, object).empty()) return kTick_s * i;
+      is_there = i >= 10;
+    }
+    return -1.0;
+  };
+  // It stands at a wall and leaves it; then somebody comes into its way.
+  EXPECT_NEAR(warnedBefore(0.03, straight), 0.7, 0.16);
+  // All of the course touches.
+  EXPECT_EQ(warnedBefore(10.0, straight), -1.0);
+}
+
+TEST(CollisionWatch, warnsAtOnceOfWhatCameIntoTheWayBeforeThePushBegan) {
+  const TouchCheck check = [](const Observation&, const std::vector<Pose2>& poses) {
+    const bool touches =
+        std::any_of(poses.begin(), poses.end(), [](const Pose2& pose) { return pose.x() > 0.1; });
+    return std::string(touches ? "chair_2" : "");
+  };
+  CollisionWatch watch(straightCase(), check);
+  watch.begin(Observation{}, Pose2());
+  ObjectState object;
+  for (const double stamp_s : {100.0, 100.05}) {
+    object.stamp_s = stamp_s;
+    watch.aheadOf(Observation{}, 0.0, object);
+  }
+  EXPECT_EQ(watch.aheadOf(Observation{}, 0.0, object), "chair_2");
 }
 
 TEST(CollisionWatch, looksOncePerSight) {
@@ -115,8 +152,11 @@ TEST(CollisionWatch, looksOncePerSight) {
     EXPECT_EQ(watch.aheadOf(Observation{}, 0.1 * i, object), "");
   }
   object.stamp_s = 100.1;
+  const int asked = wall.asked;
   EXPECT_EQ(watch.aheadOf(Observation{}, 1.0, object), "the wall");
-  EXPECT_EQ(wall.asked, 3);
+  EXPECT_EQ(wall.asked, asked + 1);
+  watch.aheadOf(Observation{}, 1.0, object);
+  EXPECT_EQ(wall.asked, asked + 1);
 }
 
 TEST(CollisionWatch, isTheSameWhereverThePushBegins) {

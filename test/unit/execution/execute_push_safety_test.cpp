@@ -246,6 +246,33 @@ TEST(ExecutePushSafety, stopsBeforeTheObjectTouchesSomething) {
   }
 }
 
+TEST(ExecutePushSafety, anObjectThatIsStoppedOffItsCourseTellsThatTheCaseIsWrong) {
+  FakeWorld world(6);
+  ExecutePush first = firstTrial();
+  ASSERT_EQ(test::run(first, world), BehaviourStatus::kSucceeded);
+  Case known = first.report()->recorded;
+  known.start_outcome.covariance = Eigen::Vector3d(0.02, 0.02, 0.05).cwiseAbs2().asDiagonal();
+  known.effective_count = 20;
+  ExecutePushOptions options;
+  options.tube.on = true;
+  options.tube.hold_s = 5.0;  // Without the stop it would go on.
+  world = FakeWorld(7);
+  ExecutePush push("chair_1", known, test::fakeRobot(), test::detour, options);
+  bool is_there = false;
+  push.watchAhead([&](const Observation&, const std::vector<Pose2>&) {
+    return std::string(is_there ? "the wall" : "");
+  });
+  ASSERT_TRUE(test::runUntil(push, world, Phase::kPush));
+  world.object_fixed = true;
+  for (int i = 0; i < 60; ++i) world.advance(push.tick(world.observe()).command.twist);
+  is_there = true;
+  test::run(push, world);
+  EXPECT_EQ(push.report()->outcome, PushOutcome::kBrokenOff);
+  EXPECT_TRUE(push.report()->test.rejected);
+  EXPECT_EQ(push.describe().rfind("stopped before chair_1 touched the wall: chair_1 was", 0), 0u)
+      << push.describe();
+}
+
 TEST(ExecutePushSafety, stopsWhenSomethingHoldsTheRobot) {
   FakeWorld world(8);
   ExecutePush push = firstTrial();

@@ -60,6 +60,20 @@ TEST_F(PushTaskSafetyTest, plansAnewWhereAPushWasStoppedBeforeTheObjectTouchedSo
       << push_task.describe();
 }
 
+TEST_F(PushTaskSafetyTest, isDoneWhereAPushWasStoppedAtTheGoal) {
+  services.touches = [this](const Observation& observation, const std::vector<Pose2>&) {
+    const Pose2& object = observation.objects.front().map_T_object;
+    const bool is_near = distance(object, goal.map_T_goal) < 0.12 &&
+                         std::abs(yawDifference(object, goal.map_T_goal)) < 0.2;
+    return std::string(is_near ? "a wall" : "");
+  };
+  PushTask push_task = task();
+  EXPECT_EQ(test::run(push_task, world, 900.0), BehaviourStatus::kSucceeded)
+      << push_task.describe();
+  EXPECT_EQ(reports.back().outcome, PushOutcome::kStoppedShort);
+  EXPECT_EQ(push_task.progress().replan_causes.count(ReplanCause::kStoppedShort), 0u);
+}
+
 TEST_F(PushTaskSafetyTest, failsWhenTheObjectIsNotInSight) {
   world.object_visible = false;
   PushTask push_task = task();

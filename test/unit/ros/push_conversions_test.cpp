@@ -196,6 +196,11 @@ TEST(PushConversions, reportsComeBack) {
   EXPECT_DOUBLE_EQ(back.test.p_value, 0.03);
   EXPECT_TRUE(back.test.rejected);
   EXPECT_EQ(back.recorded.steps.size(), 3U);
+  for (int i = 0; i <= static_cast<int>(kLastPushOutcome); ++i) {
+    report.outcome = static_cast<PushOutcome>(i);
+    EXPECT_EQ(fromMessage(toMessage(report)).outcome, report.outcome);
+    EXPECT_STRNE(toString(report.outcome), "");
+  }
   ExecutedPush bad = toMessage(report);
   bad.outcome = 200;
   EXPECT_THROW(fromMessage(bad), InputError);
