@@ -3,6 +3,13 @@
 #include "watches.h"
 
 namespace casepush {
+namespace {
+
+// By less than this poses may be off, and a cell be larger than what is in it: in a narrow gap no
+// push must be stopped for that.
+constexpr double kCertain_m = 0.02;
+
+}  // namespace
 
 std::vector<PlacedObject> otherObjects(const Observation& observation, const std::string& but_id) {
   std::vector<PlacedObject> others;
@@ -38,13 +45,13 @@ ApproachPlanner approachPlanner(const PlannerSource& planner, const std::string&
 }
 
 TouchCheck touchCheck(const PlannerSource& planner, const std::string& object_id) {
-  return
-      [planner, object_id](const Observation& observation, const std::vector<Pose2>& map_T_object) {
-        const ObjectState* object = usableObject(observation, object_id);
-        return object == nullptr ? std::string()
-                                 : planner()->touched(object->model, map_T_object,
-                                                      otherObjects(observation, object_id));
-      };
+  return [planner, object_id](const Observation& observation,
+                              const std::vector<Pose2>& map_T_object) {
+    const ObjectState* object = usableObject(observation, object_id);
+    return object == nullptr ? std::string()
+                             : planner()->touched(object->model, map_T_object,
+                                                  otherObjects(observation, object_id), kCertain_m);
+  };
 }
 
 }  // namespace casepush

@@ -333,7 +333,8 @@ void PushPlanner::Data::improve(const PlanRequest& request, const std::vector<co
 }
 
 std::string PushPlanner::touched(const std::string& model, const std::vector<Pose2>& map_T_object,
-                                 const std::vector<PlacedObject>& obstacles) const {
+                                 const std::vector<PlacedObject>& obstacles,
+                                 double deeper_than_m) const {
   const auto found = data_->footprints.find(model);
   if (found == data_->footprints.end()) return "";
   std::vector<PlacedObject> known;
@@ -344,8 +345,9 @@ std::string PushPlanner::touched(const std::string& model, const std::vector<Pos
   const CollisionChecker checker = data_->checkerWith(placed);
   const Footprint& exact = *found->second.exact;
   for (const Pose2& pose : map_T_object) {
-    if (checker.collides(exact, pose)) {
-      return describe(checker.contacts(exact, pose).front(), placed);
+    if (!checker.collides(exact, pose)) continue;
+    for (const Contact& contact : checker.contacts(exact, pose)) {
+      if (contact.depth_m > deeper_than_m) return describe(contact, placed);
     }
   }
   return "";

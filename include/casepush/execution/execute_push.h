@@ -120,7 +120,8 @@ ApproachPlanner approachPlanner(const PlannerSource& planner, const std::string&
 using TouchCheck = std::function<std::string(const Observation& observation,
                                              const std::vector<Pose2>& map_T_object)>;
 
-/// By a planner that is asked for anew each time, with all objects but `object_id` standing around.
+/// By a planner that is asked for anew each time, with all objects but `object_id` standing around;
+/// overlaps of up to 2 cm do not count.
 TouchCheck touchCheck(const PlannerSource& planner, const std::string& object_id);
 
 /// Every object of an observation but one, as obstacles.

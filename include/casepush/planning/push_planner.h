@@ -139,10 +139,10 @@ class PushPlanner {
   ClearingResult clear(const ClearingRequest& request, const std::vector<Case>& cases,
                        const std::function<bool()>& stop = {}) const;
 
-  /// What an object, by its true shape, would touch at the first of some poses at which it touches
-  /// anything: "chair_2 (seat)", "the map near (1.20, 3.45)". Empty: nothing.
+  /// What an object, by its true shape, would overlap by more than `deeper_than_m` at the first of
+  /// some poses at which it does: "chair_2 (seat)", "the map near (1.20, 3.45)". Empty: nothing.
   std::string touched(const std::string& model, const std::vector<Pose2>& map_T_object,
-                      const std::vector<PlacedObject>& obstacles) const;
+                      const std::vector<PlacedObject>& obstacles, double deeper_than_m = 0.0) const;
 
   /// Path of the robot to a push's start pose among map, obstacles and the object itself.
   RobotPath approachPath(const PlacedObject& object, const std::vector<PlacedObject>& obstacles,

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "planning/planner_fixture.h"
 
 namespace casepush {
@@ -104,6 +106,11 @@ TEST(PushPlannerTouched, tellsWhatAnObjectWouldTouch) {
       EXPECT_EQ(touched.rfind("the ", 0), 0u) << touched;
       ++touching;
     }
+    double deepest_m = 0.0;
+    for (const Contact& contact : checker.contacts(*footprint, any)) {
+      deepest_m = std::max(deepest_m, contact.depth_m);
+    }
+    EXPECT_EQ(planner->touched("chair", {free, any}, {}, 0.02).empty(), deepest_m <= 0.02);
     EXPECT_EQ(planner->touched("chair", {free}, {{"chair_2", "chair", free}}).rfind("chair_2", 0),
               0u);
   }
