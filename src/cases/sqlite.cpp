@@ -147,6 +147,12 @@ std::int64_t SqliteDatabase::lastInsertId() const {
 
 bool SqliteDatabase::isWritable() const { return sqlite3_db_readonly(handle_.get(), "main") == 0; }
 
+bool SqliteDatabase::hasMoved() const {
+  int moved = 0;
+  sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+  return moved != 0;
+}
+
 void SqliteDatabase::allowCheckpointOnClose(bool allowed) {
   sqlite3_db_config(handle_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, allowed ? 0 : 1, nullptr);
 }
@@ -239,6 +245,12 @@ std::string SqliteStatement::blob(int column) const {
 SqliteTransaction::SqliteTransaction(SqliteDatabase& database, Kind kind) : database_(database) {
   // A write lock taken at once waits for other writers; one taken later could only fail.
   database_.execute(kind == Kind::kWrite ? "BEGIN IMMEDIATE" : "BEGIN");
+  if (kind == Kind::kWrite && database_.hasMoved()) {
+    database_.execute("ROLLBACK");
+    throw InputError(database_.file(),
+                     "was deleted, moved or replaced while in use, so that nothing more is stored; "
+                     "put it back and start the program again");
+  }
 }
 
 SqliteTransaction::~SqliteTransaction() {

@@ -42,6 +42,7 @@ class SqliteDatabase {
   std::string text(const std::string& sql);      ///< As integer().
   std::int64_t lastInsertId() const;
   bool isWritable() const;
+  bool hasMoved() const;  ///< True if the file is no longer where it was opened.
 
   /// Whether closing the last connection may write the log back into the main file.
   void allowCheckpointOnClose(bool allowed);
@@ -99,6 +100,7 @@ class SqliteStatement {
 class SqliteTransaction {
  public:
   enum class Kind { kRead, kWrite };
+  /// @throws InputError if it would write to a file that is no longer there.
   SqliteTransaction(SqliteDatabase& database, Kind kind);
   ~SqliteTransaction();
   SqliteTransaction(const SqliteTransaction&) = delete;

@@ -2,6 +2,7 @@
 
 #include <ros/ros.h>
 
+#include <csignal>
 #include <cstdio>
 
 #include "casepush/common/input_error.h"
@@ -10,6 +11,8 @@ namespace casepush {
 
 int runNode(int argc, char** argv, const char* name, const std::function<int()>& body) {
   constexpr int kBadInput = 2;
+  // A file that may not grow any more (ulimit -f) is told of like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     ros::init(argc, argv, name);
     return body();

@@ -1,3 +1,4 @@
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -52,6 +53,8 @@ int main(int argc, char** argv) {
   casepush::addBenchCommand(app, run);
   casepush::addExperimentCommand(app, run);
   const bool json = wantsJson(argc, argv);
+  // A file that may not grow any more (ulimit -f) is told of like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     app.parse(argc, argv);
     return run();

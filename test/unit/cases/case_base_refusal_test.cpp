@@ -180,6 +180,23 @@ TEST_F(CaseBaseRefusal, unwritableFolder) {
   fs::permissions(folder_.path(), fs::perms(0755));
 }
 
+// SQLite itself would go on to write to the file that has no name any more.
+TEST_F(CaseBaseRefusal, nothingIsStoredInAFileThatWasDeletedOrReplaced) {
+  fillBase();
+  CaseBase base(file_, Access::kReadWrite);
+  const int count = base.count();
+  const fs::path elsewhere = file_.string() + ".moved";
+  fs::rename(file_, elsewhere);
+  const auto add = [&] { base.add(recordedCase(15)); };
+  expectRefusal(inputErrorOf(add), file_, "was deleted, moved or replaced while in use");
+  fs::copy_file(elsewhere, file_);
+  expectRefusal(inputErrorOf(add), file_, "was deleted, moved or replaced while in use");
+  EXPECT_EQ(base.count(), count);
+  fs::rename(elsewhere, file_);
+  add();
+  EXPECT_EQ(base.count(), count + 1);
+}
+
 TEST_F(CaseBaseRefusal, unwritableFileIsReadable) {
   fillBase();
   fs::permissions(file_, fs::perms(0444));
