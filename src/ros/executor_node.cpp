@@ -21,7 +21,8 @@ constexpr double kTickCheckS = 0.02;    // Wall time.
 constexpr double kTickMissingS = 0.06;  // Wall time without odometry after which a timer ticks.
 constexpr double kStatePeriodS = 0.2;
 constexpr double kJumpBackS = 0.5;
-constexpr double kBlindS = 2.0;  // Without any observation, after which a goal ends.
+constexpr double kForeignS = 5.0;  // Diagnostics tell of it for so long.
+constexpr double kBlindS = 2.0;    // Without any observation, after which a goal ends.
 
 }  // namespace
 
@@ -73,6 +74,9 @@ ExecutorNode::ExecutorNode(ExecutorNodeParameters parameters, ros::NodeHandle ha
   teleop_subscriber_ =
       handle_.subscribe(names::kTeleopVelocity.name, names::kTeleopVelocity.queue_size,
                         &ExecutorNode::onTeleop, this, no_delay);
+  command_subscriber_ =
+      handle_.subscribe(names::kCommandVelocity.name, names::kCommandVelocity.queue_size,
+                        &ExecutorNode::onCommand, this);
   stop_ = handle_.advertiseService(names::kStopService, &ExecutorNode::onStop, this);
   tick_check_ = handle_.createWallTimer(ros::WallDuration(kTickCheckS),
                                         [this](const ros::WallTimerEvent&) { checkTicks(); });
@@ -104,6 +108,11 @@ void ExecutorNode::onObjects(const PushableObjectArray& message) {
 
 void ExecutorNode::onOdometry(const nav_msgs::Odometry& message) {
   const double now_s = message.header.stamp.toSec();
+  if (isAhead(now_s)) {
+    ROS_WARN_THROTTLE(1.0, "odom: ignored, as it is stamped ahead of the clock by %.1f s",
+                      now_s - ros::Time::now().toSec());
+    return;
+  }
   // Against odometry alone: ticks without it go by the clock, which may be ahead of what is late.
   const bool jumped_back = now_s < odometry_.header.stamp.toSec() - kJumpBackS;
   if (jumped_back) {
@@ -177,17 +186,18 @@ void ExecutorNode::end(ActivityEnd how, const std::string& explanation) {
 }
 
 std::optional<Observation> ExecutorNode::observe(double now_s) {
-  const std::string ahead = forgetIfAhead(buffer_);
+  const std::string ahead = ahead_.check(buffer_);
   Observation observation;
   observation.stamp_s = now_s;
   try {
+    if (!ahead.empty()) throw InputError("time stamps", ahead);
     const StampedRobotPose robot = robotPose(buffer_);
     observation.map_T_robot = robot.map_T_robot;
     // Where the robot is and how it moves: what is older counts.
     observation.robot_stamp_s = std::min(robot.stamp_s, odometry_.header.stamp.toSec());
     observation.robot_twist = fromMessage(odometry_.twist.twist);
   } catch (const std::exception& error) {
-    blind_reason_ = ahead.empty() ? error.what() : ahead;
+    blind_reason_ = error.what();
     ROS_WARN_THROTTLE(1.0, "no observation: %s", blind_reason_.c_str());
     return std::nullopt;
   }
@@ -319,6 +329,10 @@ void ExecutorNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper
   } else {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    whoIsBusy().empty() ? "idle" : whoIsBusy());
+  }
+  if (ros::SteadyTime::now().toSec() - foreign_command_s_ < kForeignS) {
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR,
+                        "cmd_vel: " + foreign_commander_ + " commands the base, too");
   }
   status.add("planner is alive", plans_.isAlive());
   status.add("cases", cases_->size());

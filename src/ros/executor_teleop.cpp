@@ -1,4 +1,4 @@
-// How ExecutorNode lets a person drive.
+// How ExecutorNode lets a person drive, and notices who else drives.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -52,6 +52,16 @@ void ExecutorNode::checkTeleop() {
     command_.publish(geometry_msgs::Twist());
     publishState(last_stamp_s_);
   }
+}
+
+void ExecutorNode::onCommand(const ros::MessageEvent<const geometry_msgs::Twist>& event) {
+  if (event.getPublisherName() == ros::this_node::getName()) {
+    return;
+  }
+  foreign_commander_ = event.getPublisherName();
+  foreign_command_s_ = ros::SteadyTime::now().toSec();
+  ROS_ERROR_THROTTLE(5.0, "cmd_vel: %s commands the base, too; only executor_node may",
+                     foreign_commander_.c_str());
 }
 
 }  // namespace casepush

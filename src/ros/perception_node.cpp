@@ -80,7 +80,7 @@ double PerceptionNode::now() {
     last_markers_s_ = -1e9;
   }
   last_now_s_ = now_s;
-  const std::string ahead = forgetIfAhead(buffer_);
+  const std::string ahead = ahead_.check(buffer_);
   if (!ahead.empty()) {
     ROS_WARN_THROTTLE(1.0, "%s", ahead.c_str());
   }

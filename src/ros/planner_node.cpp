@@ -80,11 +80,11 @@ PlanRequest PlannerNode::request(const PlanPushGoal& goal) {
       complete.objects.push_back(
           toMessage(PlacedObject{state.id, state.model, state.map_T_object}));
     }
-    const std::string ahead = forgetIfAhead(buffer_);
-    if (!ahead.empty()) {
-      throw InputError("start", ahead);
+    const StampedRobotPose robot = robotPose(buffer_);
+    if (isAhead(robot.stamp_s)) {
+      throw InputError("start", "TF map -> base_link is stamped ahead of the clock");
     }
-    complete.robot = toMessage(robotPose(buffer_).map_T_robot);
+    complete.robot = toMessage(robot.map_T_robot);
   }
   return fromMessage(complete);
 }
@@ -153,7 +153,7 @@ void PlannerNode::show(const PlanResult& result, const std::vector<Case>& cases)
 }
 
 void PlannerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::string ahead = forgetIfAhead(buffer_);  // A live map needs transforms, too.
+  const std::string ahead = ahead_.check(buffer_);  // A live map needs transforms, too.
   if (!ahead.empty()) {
     ROS_WARN("%s", ahead.c_str());
   }

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kMostTilt_rad = 0.2;
 constexpr double kAheadS = 0.5;
+constexpr double kSimulatedAheadS = 5.0;
+constexpr double kPatienceS = 0.05;  // Wall time.
 
 /// The latest one. @throws InputError: `where`, then what TF says.
 geometry_msgs::TransformStamped mapTransform(const tf2_ros::Buffer& buffer,
@@ -38,21 +40,27 @@ StampedRobotPose robotPose(const tf2_ros::Buffer& buffer) {
 
 bool isAhead(double stamp_s) {
   const ros::Time now = ros::Time::now();
-  return !now.isZero() && stamp_s - now.toSec() > kAheadS;
+  const double most_s = ros::Time::isSimTime() ? kSimulatedAheadS : kAheadS;
+  return !now.isZero() && stamp_s - now.toSec() > most_s;
 }
 
-std::string forgetIfAhead(tf2_ros::Buffer& buffer) {
-  std::ostringstream line;
+std::string AheadWatch::check(tf2_ros::Buffer& buffer) {
+  double stamp_s = 0.0;
   try {
-    const double stamp_s = robotPose(buffer).stamp_s;
-    if (isAhead(stamp_s)) {
-      line << "TF map -> base_link is stamped " << stamp_s - ros::Time::now().toSec()
-           << " s ahead of the clock: all transforms are forgotten";
-      buffer.clear();
-    }
+    stamp_s = robotPose(buffer).stamp_s;
   } catch (const InputError& error) {
     // Nothing to forget.
   }
+  if (!isAhead(stamp_s)) {
+    since_.reset();
+    return "";
+  }
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (!since_) since_ = now;
+  if ((now - *since_).toSec() > kPatienceS) buffer.clear();
+  std::ostringstream line;
+  line << "TF map -> base_link is stamped " << stamp_s - ros::Time::now().toSec()
+       << " s ahead of the clock";
   return line.str();
 }
 

@@ -10,6 +10,7 @@ import time
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Pose2D, Twist
 from nav_msgs.msg import Odometry
 
@@ -231,6 +232,18 @@ class ExecutorNodeTest(PushingTest):
         outside.goal.pose.position.x = 40.0
         result = self.result(self.push_object, outside)
         self.assertEqual(result.status, PushObjectResult.INVALID_GOAL, result.explanation)
+
+    def test_tells_of_somebody_else_who_commands_the_base(self):
+        diagnostics = harness.Recorder("/diagnostics", DiagnosticArray)
+        other = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+
+        def is_told():
+            other.publish(Twist())
+            return any("commands the base, too" in status.message
+                       for _, message in diagnostics.all() for status in message.status)
+
+        harness.wait_until(is_told, what="the executor to notice")
+        other.unregister()
 
     def test_refuses_the_case_of_another_object(self):
         cases = harness.made_up_cases()

@@ -26,6 +26,7 @@
 #include "casepush/ros/node_parameters.h"
 #include "casepush/ros/rearrange_activity.h"
 #include "casepush/ros/stand_tally.h"
+#include "casepush/ros/transforms.h"
 #include "casepush/ros/watchdog.h"
 
 namespace casepush {
@@ -54,6 +55,8 @@ class ExecutorNode {
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void onTeleop(const geometry_msgs::Twist& message);
   void checkTeleop();
+  /// Watches whether somebody else commands the base.
+  void onCommand(const ros::MessageEvent<const geometry_msgs::Twist>& event);
   void checkTicks();
 
   /// Who is using the base; "" if nobody is.
@@ -96,6 +99,7 @@ class ExecutorNode {
   SilenceTimer objects_silence_;
   SilenceTimer observation_silence_;
   std::string blind_reason_;  ///< Why there was no observation.
+  AheadWatch ahead_;
   nav_msgs::Odometry odometry_;
 
   CommandGuard guard_;
@@ -113,6 +117,8 @@ class ExecutorNode {
   std::uint32_t report_count_ = 0;
   int overridden_commands_ = 0;
   StandTally stands_;
+  std::string foreign_commander_;    ///< Who else commanded the base last,
+  double foreign_command_s_ = -1e9;  ///< and when, by the steady clock.
 
   ros::Publisher command_;
   ros::Publisher reports_;
@@ -123,6 +129,7 @@ class ExecutorNode {
   ros::Subscriber objects_subscriber_;
   ros::Subscriber odometry_subscriber_;
   ros::Subscriber teleop_subscriber_;
+  ros::Subscriber command_subscriber_;
   ros::ServiceServer stop_;
   ros::WallTimer tick_check_;
   PushObjectServer push_object_;

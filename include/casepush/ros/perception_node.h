@@ -13,6 +13,7 @@
 #include "casepush/perception/pose_tracker.h"
 #include "casepush/ros/diagnostics.h"
 #include "casepush/ros/node_parameters.h"
+#include "casepush/ros/transforms.h"
 
 namespace casepush {
 
@@ -42,6 +43,7 @@ class PerceptionNode {
   PoseTracker tracker_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
+  AheadWatch ahead_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::Publisher objects_;
   ros::Publisher object_markers_;

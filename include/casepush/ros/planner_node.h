@@ -16,6 +16,7 @@
 #include "casepush/ros/goal_server.h"
 #include "casepush/ros/map_source.h"
 #include "casepush/ros/node_parameters.h"
+#include "casepush/ros/transforms.h"
 
 namespace casepush {
 
@@ -46,6 +47,7 @@ class PlannerNode {
   PlannerNodeParameters parameters_;
   ros::NodeHandle handle_;
   tf2_ros::Buffer buffer_;
+  AheadWatch ahead_;
   tf2_ros::TransformListener listener_;
 
   CurrentPlanner planner_;
