@@ -142,8 +142,10 @@ PlanRequest planRequest(const PushTaskGoal& goal, const PushTaskOptions& options
 
 std::string limitReached(const std::string& object_id, const PushTaskProgress& progress,
                          const PushTaskOptions& options, int plans_without_progress) {
+  const std::vector<std::string>& reasons = progress.replan_reasons;
   const std::string still =
-      ": still " + errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad);
+      ": still " + errorText(progress.distance_to_goal_m, progress.yaw_to_goal_rad) +
+      (reasons.empty() ? "" : " (the last plan was given up: " + reasons.back() + ")");
   if (progress.pushes >= options.max_pushes) {
     return "not at the goal after " + std::to_string(progress.pushes) + " pushes" + still;
   }

@@ -48,7 +48,7 @@ void RearrangeOptions::validate() const {
 }
 
 struct Rearrange::Data {
-  enum class Stage { kLook, kOrder, kTasks, kDone };
+  enum class Stage { kLook, kOrder, kGoals, kTasks, kDone };
 
   Data(RearrangeRequest wanted, RearrangeServices outside, const RearrangeOptions& all)
       : goal(std::move(wanted)), services(std::move(outside)), options(all) {
@@ -79,6 +79,10 @@ struct Rearrange::Data {
 
   Tick run(const Observation& observation);
   void look(const Observation& observation);
+  std::optional<PlanResult> ask(const PlanRequest& request);
+  PlanRequest requestFor(const PushTaskGoal& wanted, const ObjectState& object,
+                         const Observation& observation) const;
+  void compareGoals(const Observation& observation);
   void beginRound(const Observation& observation);
   void plan(const Observation& observation);
   void chooseOrder(const Observation& observation);
@@ -102,7 +106,7 @@ void Rearrange::Data::endTask(PushTaskStatus how, const std::string& why) {
 }
 
 void Rearrange::Data::end(PushTaskStatus how, const std::string& why) {
-  if (stage == Stage::kOrder && asked) services.plans->cancel();
+  if (asked) services.plans->cancel();
   if (task) endTask(how, why);
   stage = Stage::kDone;
   status = how;
@@ -134,6 +138,60 @@ void Rearrange::Data::look(const Observation& observation) {
   beginRound(observation);  // Who is still unseen fails in its own task, which says so.
 }
 
+std::optional<PlanResult> Rearrange::Data::ask(const PlanRequest& request) {
+  if (!asked) {
+    services.plans->request(request);
+    asked = true;
+    return std::nullopt;
+  }
+  std::optional<PlanResult> result = services.plans->poll();
+  asked = !result;
+  return result;
+}
+
+PlanRequest Rearrange::Data::requestFor(const PushTaskGoal& wanted, const ObjectState& object,
+                                        const Observation& observation) const {
+  PlanRequest request;
+  request.object = {object.id, object.model, object.map_T_object};
+  request.map_T_goal = wanted.map_T_goal;
+  request.tolerance = wanted.tolerance;
+  request.map_T_robot = observation.map_T_robot;
+  request.seed = wanted.seed;
+  request.deadline_s = options.plan_deadline_s;
+  return request;
+}
+
+// Whether all objects, none of whose goals is in a wall, can be at their goals at once.
+void Rearrange::Data::compareGoals(const Observation& observation) {
+  if (next + 1 >= goal.tasks.size() || !services.plans->isAlive()) {
+    chooseOrder(observation);
+    return;
+  }
+  const PushTaskGoal& wanted = goal.tasks[next];
+  const ObjectState* object = usableObject(observation, wanted.object_id);
+  if (object == nullptr) {
+    ++next;
+    return;
+  }
+  PlanRequest request = requestFor(wanted, *object, observation);
+  request.object.map_T_object = wanted.map_T_goal;
+  for (std::size_t i = next + 1; i < goal.tasks.size(); ++i) {
+    const ObjectState* other = usableObject(observation, goal.tasks[i].object_id);
+    if (other != nullptr) {
+      request.obstacles.push_back({other->id, other->model, goal.tasks[i].map_T_goal});
+    }
+  }
+  const std::optional<PlanResult> result = ask(request);
+  if (!result) return;
+  if (result->status == PlanStatus::kStartInCollision) {
+    items[next].status = PushTaskStatus::kInvalidGoal;
+    items[next].explanation = "with all objects at their goals: " + result->explanation;
+    end(PushTaskStatus::kInvalidGoal, items[next].explanation);
+    return;
+  }
+  ++next;
+}
+
 void Rearrange::Data::beginRound(const Observation& observation) {
   left = unmet(observation);
   if (left.empty()) {
@@ -160,6 +218,11 @@ std::string Rearrange::Data::failures() const {
 
 // As if no object that has a goal of its own, or may be cleared away, stood around.
 void Rearrange::Data::plan(const Observation& observation) {
+  if (next == left.size() && round == 1) {
+    stage = Stage::kGoals;
+    next = 0;
+    return;
+  }
   if (next == left.size()) {
     chooseOrder(observation);
     return;
@@ -170,27 +233,15 @@ void Rearrange::Data::plan(const Observation& observation) {
     ++next;
     return;
   }
-  if (!asked) {
-    PlanRequest request;
-    request.object = {object->id, object->model, object->map_T_object};
-    request.map_T_goal = wanted.map_T_goal;
-    request.tolerance = wanted.tolerance;
-    request.map_T_robot = observation.map_T_robot;
-    for (const PlacedObject& other : otherObjects(observation, object->id)) {
-      const bool has_goal = std::any_of(items.begin(), items.end(), [&other](const Item& item) {
-        return item.object_id == other.id;
-      });
-      // One that may be cleared away will be gone when its turn comes.
-      if (!has_goal && !wanted.clear_obstacles) request.obstacles.push_back(other);
-    }
-    request.seed = wanted.seed;
-    request.deadline_s = options.plan_deadline_s;
-    services.plans->request(request);
-    asked = true;
-    return;
+  PlanRequest request = requestFor(wanted, *object, observation);
+  for (const PlacedObject& other : otherObjects(observation, object->id)) {
+    const bool has_goal = std::any_of(items.begin(), items.end(), [&other](const Item& item) {
+      return item.object_id == other.id;
+    });
+    // One that may be cleared away will be gone when its turn comes.
+    if (!has_goal && !wanted.clear_obstacles) request.obstacles.push_back(other);
   }
-  if (const std::optional<PlanResult> result = services.plans->poll()) {
-    asked = false;
+  if (const std::optional<PlanResult> result = ask(request)) {
     if (round == 1 && canNeverBeMet(result->status)) {
       Item& item = items[left[next]];
       item.status = PushTaskStatus::kInvalidGoal;
@@ -269,6 +320,9 @@ Tick Rearrange::Data::run(const Observation& observation) {
   switch (stage) {
     case Stage::kLook:
       look(observation);
+      break;
+    case Stage::kGoals:
+      compareGoals(observation);
       break;
     case Stage::kOrder:
       plan(observation);

@@ -166,6 +166,15 @@ class RearrangeTest(unittest.TestCase):
         self.ready(self.push_object, push)
         self.assertIn("oracle", harness.result_of(self.push_object).explanation)
 
+    def test_pushes_nothing_if_goals_contradict_each_other(self):
+        self.ready(self.rearrange, RearrangeGoal(goals=[wanted("chair_1", 1.6, -1.8),
+                                                        wanted("chair_2", 1.7, -1.8)]))
+        result = harness.result_of(self.rearrange)
+        self.assertEqual(result.status, RearrangeResult.INVALID_GOAL, result.explanation)
+        self.assertIn("with all objects at their goals", result.explanation)
+        self.assertIn("chair_2", result.explanation)
+        self.assertEqual(sum(entry.pushes for entry in result.objects), 0)
+
     def test_is_the_only_task_and_can_be_cancelled(self):
         self.ready(self.rearrange, RearrangeGoal(goals=[wanted("chair_1", -2.0, 1.8)], seed=1))
         self.push_object.send_goal(PushObjectGoal(object_id="chair_1",

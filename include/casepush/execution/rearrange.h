@@ -47,8 +47,8 @@ std::vector<int> bestOrder(int count, const std::vector<std::pair<int, int>>& wi
 /// of another goes before it; one whose goal lies on the way of another goes after it. Whatever an
 /// order cannot avoid is left to the push tasks, which go around or clear the way. Tasks that
 /// failed and objects that were moved again get another round. If a goal can never be met (in a
-/// collision with what stands still, outside of the map, no cases of the object), nothing is
-/// pushed.
+/// collision with what stands still or with another goal, outside of the map, no cases of the
+/// object), nothing is pushed.
 class Rearrange : public Behaviour {
  public:
   /// @throws InputError from the options, if a service is missing, if there is no goal, a goal

@@ -161,6 +161,26 @@ TEST_F(RearrangeTest, PushesNothingIfAGoalCanNeverBeMet) {
   EXPECT_EQ(rearrange.items()[1].status, PushTaskStatus::kInvalidGoal);
 }
 
+TEST_F(RearrangeTest, PushesNothingIfGoalsContradictEachOther) {
+  addCrate(Pose2(-4.0, 3.0, 0.0), wanted.tasks[0].map_T_goal);
+  plans.answer = [](const PlanRequest& request) {
+    const bool is_met = request.object.map_T_object.position() == request.map_T_goal.position();
+    if (!is_met || request.obstacles.empty()) return searchPlan(request);
+    EXPECT_EQ(request.obstacles.front().id, "crate_1");
+    EXPECT_EQ(request.obstacles.front().map_T_object.position(), request.map_T_goal.position());
+    PlanResult none;
+    none.status = PlanStatus::kStartInCollision;
+    none.explanation = "object chair_1: overlaps crate_1";
+    return none;
+  };
+  Rearrange rearrange(wanted, rearranging, rearrange_options);
+  EXPECT_EQ(runAll(rearrange), BehaviourStatus::kFailed);
+  EXPECT_TRUE(started.empty());
+  EXPECT_EQ(rearrange.status(), PushTaskStatus::kInvalidGoal);
+  EXPECT_EQ(rearrange.describe(),
+            "with all objects at their goals: object chair_1: overlaps crate_1");
+}
+
 TEST_F(RearrangeTest, PlansTheOrderWithoutWhatMayBeClearedAway) {
   crate.id = "crate_1";  // Without a goal of its own.
   crate.model = "disc";
