@@ -139,7 +139,8 @@ class MechanismBuilder {
                                                                 Eigen::EigenvaluesOnly);
     const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
     std::ostringstream values;
-    values << "(principal moments " << moments.transpose() << " kg m^2)";
+    values << "(principal moments " << moments(0) << ", " << moments(1) << ", " << moments(2)
+           << " kg m^2)";
     if (!(moments(0) > 0.0)) {
       throw InputError(where, "has an inertia that is not positive definite " + values.str());
     }

@@ -28,9 +28,16 @@ void LearnerNode::onReport(const ExecutedPush& message) {
       ROS_WARN("%s", notice.c_str());
     }
     publishCases();
+    noteStored("");
   } catch (const InputError& error) {
     ROS_ERROR("push report %u is not learnt from: %s", message.sequence, error.what());
+    noteStored(error.what());
   }
+}
+
+void LearnerNode::noteStored(const std::string& failure) {
+  const std::lock_guard<std::mutex> lock(base_mutex_);
+  store_failure_ = failure;
 }
 
 std::string LearnerNode::adaptBy(const PushReport& report) {
@@ -112,6 +119,10 @@ void LearnerNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper&
   status.add("case base", parameters_.case_base);
   const std::lock_guard<std::mutex> lock(base_mutex_);
   status.add("cases", base_.count());
+  if (!store_failure_.empty()) {
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR,
+                        "the last push was not learnt from: " + store_failure_);
+  }
   for (const auto& [object, number] : adapting_.noticed()) {
     status.mergeSummaryf(diagnostic_msgs::DiagnosticStatus::OK,
                          "%s: noticed change %d of load or floor", object.c_str(), number);

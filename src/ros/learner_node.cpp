@@ -103,6 +103,7 @@ void LearnerNode::onGoal(const LearnObjectGoalConstPtr& goal) {
     learn(*goal, run);
   } catch (const InputError& error) {
     run.fail(LearnObjectResult::FAILED, error.what());
+    noteStored(error.what());
   }
   LearnObjectResult& result = run.result;
   result.pushes = static_cast<std::uint32_t>(run.pushes);
@@ -300,6 +301,7 @@ void LearnerNode::store(Run& run, const Exploration::Trial& trial, const PushRep
     }
   }
   publishCases();
+  noteStored("");
 }
 
 void LearnerNode::publishProgress(const Run& run, const Exploration::Trial& trial) {

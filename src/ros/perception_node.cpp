@@ -89,7 +89,7 @@ double PerceptionNode::now() {
 
 void PerceptionNode::onTags(const AprilTagDetectionArray& message) {
   const ros::Time stamp = message.header.stamp;
-  now();
+  images_.add(message.header.frame_id, stamp.toSec(), now());
   ++frames_;
   try {
     if (isAhead(stamp.toSec())) {
@@ -155,6 +155,10 @@ void PerceptionNode::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapp
   status.summary(
       blind ? diagnostic_msgs::DiagnosticStatus::WARN : diagnostic_msgs::DiagnosticStatus::OK,
       blind ? "no images with a known camera pose came" : "tracking");
+  const std::string complaint = images_.complaint();
+  if (!complaint.empty()) {
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, complaint);
+  }
   status.add("images since the last report", frames_);
   status.add("images left out in all", bad_frames_);
   status.add("detections ignored in all", tracker_.ignoredDetections());

@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForAllHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    const std::vector<std::string> unknown = app.remaining();
+    const std::vector<std::string> unknown = app.remaining(true);
     const std::string what = unknown.empty() ? error.what() : "unknown argument " + unknown.front();
     return fail(what + "; see " + commandOf(app) + " --help", json);
   } catch (const casepush::InputError& error) {

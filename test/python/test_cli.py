@@ -302,6 +302,7 @@ def bad_inputs(tmp_path, case_base):
         (with_cases + ["--seed", "99999999999999999999"], ["--seed"]),
         (with_cases + ["--deadline", "nan"], ["--deadline", "see casepush plan --help"]),
         (["cases", "remove", "--case-base", case_base], ["--id", "see casepush cases remove --help"]),
+        (["learn", "--objct", "office_chair"], ["unknown argument --objct", "see casepush learn --help"]),
         (["bench", "sim", "--pushes", "-1"], ["--pushes", "100000"]),
         (["experiment", "obstacles", "--movable", "sofa"], ["sofa", "office_chair"]),
         (["experiment", "success", "--rooms", "moon"], ["moon", "office"]),

@@ -83,6 +83,8 @@ class LearnerNode {
   void onReport(const ExecutedPush& message);
   void onStop(const std_msgs::Empty& message);
   std::string adaptBy(const PushReport& report);
+  /// For the diagnostics: why the last push was not stored; empty if it was.
+  void noteStored(const std::string& failure);
   bool onExport(ExportCases::Request& request, ExportCases::Response& response);
   bool onImport(ImportCases::Request& request, ImportCases::Response& response);
   std::int64_t addDemonstrated(const Case& push_case);
@@ -96,6 +98,7 @@ class LearnerNode {
   std::mutex base_mutex_;
   CaseBase base_;  ///< Guarded by base_mutex_, with what adapts it.
   AdaptingCases adapting_;
+  std::string store_failure_;  ///< Guarded likewise.
   ObjectWatch objects_;
 
   std::mutex state_mutex_;  ///< Guards the following.

@@ -12,6 +12,7 @@
 
 #include "casepush/perception/pose_tracker.h"
 #include "casepush/ros/diagnostics.h"
+#include "casepush/ros/image_tally.h"
 #include "casepush/ros/node_parameters.h"
 #include "casepush/ros/transforms.h"
 
@@ -56,6 +57,7 @@ class PerceptionNode {
   double last_published_s_ = -1e9;
   double last_markers_s_ = -1e9;
   bool will_publish_ = false;
+  ImageTally images_;
   int frames_ = 0;
   int bad_frames_ = 0;
   Diagnostics diagnostics_;  ///< Last: its timer uses the members above.

@@ -113,7 +113,7 @@ TEST_F(LoadMechanism, refusesBadMasses) {
 TEST_F(LoadMechanism, refusesBadInertias) {
   EXPECT_EQ(
       errorWith(kBodyInertia, R"(ixx="0.5" ixy="0" ixz="0" iyy="0.6" iyz="0" izz="-0.7")"),
-      "link 'body': has an inertia that is not positive definite (principal moments -0.7  0.5  "
+      "link 'body': has an inertia that is not positive definite (principal moments -0.7, 0.5, "
       "0.6 kg m^2)");
   EXPECT_EQ(errorWith(kBodyInertia, R"(ixx="0.5" ixy="0" ixz="0" iyy="0.5" iyz="0" izz="0")")
                 .rfind("link 'body': has an inertia that is not positive definite", 0),
@@ -124,7 +124,7 @@ TEST_F(LoadMechanism, refusesBadInertias) {
   EXPECT_EQ(
       errorWith(kBodyInertia, R"(ixx="0.5" ixy="0" ixz="0" iyy="0.6" iyz="0" izz="1.2")"),
       "link 'body': has an inertia that no body can have: the largest principal moment exceeds "
-      "the sum of the others (principal moments 0.5 0.6 1.2 kg m^2)");
+      "the sum of the others (principal moments 0.5, 0.6, 1.2 kg m^2)");
   EXPECT_NE(errorWith(kBodyInertia, R"(ixx="nan" ixy="0" ixz="0" iyy="0.6" iyz="0" izz="0.7")"),
             "");
 }
