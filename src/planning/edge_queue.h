@@ -40,28 +40,25 @@ class EdgeQueue {
 
   bool empty() const { return heap_.empty(); }
 
+  void reserve(std::size_t nodes) {
+    heap_.reserve(nodes);
+    lists_.reserve(nodes);
+  }
+
   void clear() {
     heap_.clear();
     lists_.clear();
   }
 
   /// Those of a node of which none is waiting. If there are too many, the best of them and kMore.
-  /// @param pushes  Spoilt.
-  void add(int node, std::vector<Push>* pushes) {
-    if (pushes->empty()) return;
-    if (pushes->size() > kMost) {
-      const auto more = pushes->begin() + (kMost - 1);
-      std::nth_element(pushes->begin(), more, pushes->end());
-      more->index = kMore;
-      more->is_rough = false;
-      pushes->resize(kMost);
-    }
-    std::sort(pushes->begin(), pushes->end(), [](const Push& a, const Push& b) { return b < a; });
+  void add(int node, const std::vector<Push>& pushes) {
+    if (pushes.empty()) return;
     if (lists_.size() <= static_cast<std::size_t>(node)) lists_.resize(node + 1);
     List& list = lists_[node];
-    list.count = static_cast<int>(pushes->size());
-    std::copy(pushes->begin(), pushes->end(), list.pushes.begin());
-    rise(entry(pushes->back().key_s, node));
+    list.count = 0;
+    for (const Push& push : pushes) list.insert(push);
+    if (pushes.size() > kMost) list.pushes.front() = {list.pushes.front().key_s, kMore};
+    rise(entry(list.pushes[list.count - 1].key_s, node));
   }
 
   /// The node of the next edge. @pre Not empty.
@@ -112,6 +109,19 @@ class EdgeQueue {
   struct alignas(64) List {
     std::array<Push, kMost> pushes;  ///< The first comes last.
     int count = 0;
+
+    /// In its place; of too many the last one is left out.
+    void insert(const Push& push) {
+      if (count < kMost) {
+        int at = count++;
+        for (; at > 0 && pushes[at - 1] < push; --at) pushes[at] = pushes[at - 1];
+        pushes[at] = push;
+      } else if (push < pushes.front()) {
+        int at = 0;
+        for (; at + 1 < kMost && push < pushes[at + 1]; ++at) pushes[at] = pushes[at + 1];
+        pushes[at] = push;
+      }
+    }
   };
 
   static constexpr std::size_t kChildren = 4;  // Fewer levels, and children lie side by side.

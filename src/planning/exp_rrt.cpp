@@ -61,6 +61,8 @@ ExpRrt::ExpRrt(const ob::SpaceInformationPtr& space, PushChecker* checker,
       best_cost_s_(kInfinity) {
   CASEPUSH_CHECK(options.chance == nullptr || options.similarity == Similarity::kMetric,
                  "chance constraints with the paper's similarity");
+  constexpr std::size_t kMostly = 64;  // Nodes of a search that soon finds its goal.
+  edges_.reserve(kMostly);
   specs_.approximateSolutions = false;
   specs_.directed = true;
 }

@@ -104,7 +104,7 @@ void ExpRrt::noteEdges(int node) {
   for (const Outlook& each : outlooks_) {
     if (!isPointless(node, each)) noted_.push_back(weigh(each, false));
   }
-  edges_.add(node, &noted_);
+  edges_.add(node, noted_);
 }
 
 // A push to where the object gets in less time, or that cannot be part of a quicker plan, counts as

@@ -101,6 +101,7 @@ PushPlan planOf(const PlanRequest& request, const std::vector<PreparedCase>& cas
   plan.tolerance = request.tolerance;
   plan.zeta = safety.zeta;
   plan.max_collision_probability = safety.max_collision_probability;
+  plan.pushes.reserve(pushes.size());
   Pose2 pose = plan.object.map_T_object;
   for (const int push : pushes) {
     plan.pushes.push_back({cases[push].id, pose, transform(pose, cases[push].start_outcome)});

@@ -6,18 +6,19 @@
 
 namespace casepush {
 
-/// Number of the cell of SE(2) that a pose, its yaw in (-pi, pi], lies in: `cell_m` wide in x, y
-/// and in yaw times `rho_m`.
-inline std::uint64_t poseCell(double x_m, double y_m, double yaw_rad, double cell_m, double rho_m) {
+/// Number of a cell of SE(2), from coordinates in cells.
+inline std::uint64_t cellNumber(double x, double y, double turn) {
   // Maps indices of either sign into 21 bits; what is positive is rounded down by conversion.
   constexpr double kOffset = (1 << 20) + 0.5;
   const auto index = [](double value) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(value + kOffset)) & 0x1fffff;
   };
-  return index(x_m / cell_m) << 42 | index(y_m / cell_m) << 21 | index(yaw_rad * rho_m / cell_m);
+  return index(x) << 42 | index(y) << 21 | index(turn);
 }
+
+/// Number of the cell that a pose lies in: `cell_m` wide in x, y and in yaw times `rho_m`.
 inline std::uint64_t poseCell(const Pose2& pose, double cell_m, double rho_m) {
-  return poseCell(pose.x(), pose.y(), pose.yaw(), cell_m, rho_m);
+  return cellNumber(pose.x() / cell_m, pose.y() / cell_m, pose.yaw() * rho_m / cell_m);
 }
 
 }  // namespace casepush

@@ -25,6 +25,7 @@ void addTree(const ExpRrt& rrt, PlanResult* result) {
   const PushTree& tree = rrt.tree();
   result->nodes += tree.size();
   result->tree.clear();
+  result->tree.reserve(std::min<std::size_t>(tree.size(), kShownEdges));
   for (int id = 0; id < tree.size() && result->tree.size() < kShownEdges; ++id) {
     const PushNode& node = tree.node(id);
     if (!tree.isRemoved(id) && node.parent != PushNode::kRoot) {

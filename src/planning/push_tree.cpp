@@ -16,11 +16,15 @@ constexpr double kBucket_m = 0.4;  // A handful of nodes in each bucket of a ful
 PushTree::PushTree(const Eigen::Vector2d& min_m, const Eigen::Vector2d& max_m, double rho_m,
                    double spacing_m, int case_count)
     : rho_m_(rho_m),
-      spacing_m_(spacing_m),
+      cells_per_m_(1.0 / spacing_m),
+      cells_per_rad_(rho_m / spacing_m),
       case_count_(case_count),
       words_((case_count + kBits - 1) / kBits),
       open_(min_m, max_m, rho_m, kBucket_m) {
   CASEPUSH_CHECK(spacing_m > 0.0 && case_count > 0, spacing_m << ", " << case_count << " cases");
+  constexpr std::size_t kMostly = 64;  // Nodes of a search that soon finds its goal.
+  nodes_.reserve(kMostly);
+  cases_.reserve(kMostly * words_);
 }
 
 void PushTree::clear() {

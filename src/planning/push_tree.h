@@ -44,7 +44,8 @@ class PushTree {
 
   /// Of all poses in a cell only the cheapest node grows. Yaw in (-pi, pi].
   std::uint64_t cell(const Eigen::Vector2d& position_m, double yaw_rad) const {
-    return poseCell(position_m.x(), position_m.y(), yaw_rad, spacing_m_, rho_m_);
+    return cellNumber(position_m.x() * cells_per_m_, position_m.y() * cells_per_m_,
+                      yaw_rad * cells_per_rad_);
   }
   /// Would a node that grows be turned down by add()?
   bool isCovered(std::uint64_t cell, double cost_s) const {
@@ -111,7 +112,7 @@ class PushTree {
     std::uint64_t postponed = 0;
   };
 
-  std::uint64_t cell(const Pose2& pose) const { return poseCell(pose, spacing_m_, rho_m_); }
+  std::uint64_t cell(const Pose2& pose) const { return cell(pose.position(), pose.yaw()); }
   std::size_t wordOf(int id, int push) const {
     return static_cast<std::size_t>(id) * words_ + push / kBits;
   }
@@ -119,7 +120,8 @@ class PushTree {
   void reopenAll();
 
   double rho_m_;
-  double spacing_m_;
+  double cells_per_m_;
+  double cells_per_rad_;
   int case_count_;
   int words_;  // for the bits of all cases
   std::vector<Entry> nodes_;

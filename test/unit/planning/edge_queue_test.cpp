@@ -13,7 +13,7 @@ namespace {
 
 using Push = EdgeQueue::Push;
 
-void add(EdgeQueue* queue, int node, std::vector<Push> pushes) { queue->add(node, &pushes); }
+void add(EdgeQueue* queue, int node, const std::vector<Push>& pushes) { queue->add(node, pushes); }
 
 void expectNext(EdgeQueue* queue, int node, int push) {
   ASSERT_FALSE(queue->empty());
