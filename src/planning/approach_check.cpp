@@ -13,8 +13,9 @@ namespace casepush {
 namespace {
 
 constexpr std::size_t kEnoughEnds = 2;
-constexpr int kMostLines = 12;  // Straight ways to be tested for one end of an approach.
-constexpr int kNearby = 4000;   // Cells to look at for a way around the object.
+constexpr int kMostLines = 12;     // Straight ways to be tested for one end of an approach.
+constexpr int kNearby = 4000;      // Cells to look at for a way around the object.
+constexpr double kBeside_m = 1.6;  // Most that is asked for lies no farther from the object.
 
 // What is reached from one end of a way is reached from others near it, mostly.
 bool isApart(const std::vector<Eigen::Vector2d>& ends, const Eigen::Vector2d& end) {
@@ -33,18 +34,23 @@ int stepsWithin(double free_m, double step_m) {
 
 ApproachCheck::ApproachCheck(ApproachLibrary* library, const ClearanceGrid& grid,
                              const CollisionChecker& checker,
-                             const std::vector<PlacedObject>& obstacles, Patience patience)
+                             const std::vector<PlacedObject>& obstacles, Patience patience,
+                             const std::shared_ptr<const void>& owner)
     : library_(*library),
       grid_(grid),
       checker_(checker),
       patience_(std::move(patience)),
-      flood_(library->borrowFlood(grid.size())) {
+      flood_(library->borrowFlood(grid.size())),
+      known_(library->borrowKnown(owner)) {
   for (const PlacedObject& obstacle : obstacles) {
     obstacles_.push_back(standing(library_.clearance(obstacle.model), obstacle.map_T_object));
   }
 }
 
-ApproachCheck::~ApproachCheck() { library_.giveBack(std::move(flood_)); }
+ApproachCheck::~ApproachCheck() {
+  library_.giveBack(std::move(flood_));
+  library_.giveBack(std::move(known_));
+}
 
 ApproachCheck::Standing ApproachCheck::standing(const ObjectClearance& clearance,
                                                 const Pose2& map_T_object) {
@@ -53,19 +59,25 @@ ApproachCheck::Standing ApproachCheck::standing(const ObjectClearance& clearance
 
 void ApproachCheck::standAt(const PlacedObject& object) {
   object_ = standing(library_.clearance(object.model), object.map_T_object);
+  near_.clear();
+  for (const Standing& obstacle : obstacles_) {
+    if (obstacle.isWithin(obstacle.clearance->reach() + kBeside_m, object_->position_m)) {
+      near_.push_back(&obstacle);
+    }
+  }
 }
 
 // The library keeps them by content, which takes long to compare.
 const ApproachCheck::Ways& ApproachCheck::waysOf(const std::string& model,
                                                  const PreparedCase& push_case) {
-  std::shared_ptr<const Ways>& ways = ways_[&push_case];
+  std::shared_ptr<const Ways>& ways = known_->ways[&push_case];
   if (!ways) ways = library_.ways(model, push_case);
   return *ways;
 }
 
 bool ApproachCheck::isDirect(const std::string& model, const PreparedCase& previous,
                              const PreparedCase& next) {
-  std::unordered_map<const PreparedCase*, bool>& known = direct_[&previous];
+  std::unordered_map<const PreparedCase*, bool>& known = known_->direct[&previous];
   const auto found = known.find(&next);
   if (found != known.end()) return found->second;
   return known.emplace(&next, library_.isDirect(model, previous, next)).first->second;
@@ -74,10 +86,12 @@ bool ApproachCheck::isDirect(const std::string& model, const PreparedCase& previ
 float ApproachCheck::clearanceAround(int cell, const Eigen::Vector2d& centre_m,
                                      float enough_m) const {
   float clear_m = grid_.clearance(cell);
-  if (clear_m < enough_m || obstacles_.empty()) return clear_m;
-  for (const Standing& obstacle : obstacles_) {
+  if (clear_m < enough_m) return clear_m;
+  const bool is_beside = object_->isWithin(kBeside_m, centre_m);
+  const std::size_t count = is_beside ? near_.size() : obstacles_.size();
+  for (std::size_t i = 0; i < count && clear_m >= enough_m; ++i) {
+    const Standing& obstacle = is_beside ? *near_[i] : obstacles_[i];
     clear_m = std::min(clear_m, obstacle.at(centre_m));
-    if (clear_m < enough_m) break;
   }
   return clear_m;
 }

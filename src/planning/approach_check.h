@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -24,9 +23,11 @@ class ApproachCheck {
   /// @param grid     Of the map, for the library's discs.
   /// @param checker  With the obstacles, without the object to be pushed. All three outlive this.
   /// @param patience  Once it is over, the robot gets nowhere from afar.
+  /// @param owner  Of all cases that it is asked for: what is known of them is kept as long as it
+  ///   lives. May be nullptr.
   ApproachCheck(ApproachLibrary* library, const ClearanceGrid& grid,
                 const CollisionChecker& checker, const std::vector<PlacedObject>& obstacles,
-                Patience patience = Patience());
+                Patience patience = Patience(), const std::shared_ptr<const void>& owner = nullptr);
   ~ApproachCheck();
 
   /// From where `previous` left the robot to the start of `next`, with the object in between.
@@ -43,12 +44,12 @@ class ApproachCheck {
     Eigen::Vector2d position_m;
 
     float at(const Eigen::Vector2d& point_m) const {
-      const Eigen::Vector2d away = point_m - position_m;
-      const double reach_m = clearance->reach();
-      if (std::abs(away.x()) > reach_m || std::abs(away.y()) > reach_m) {
-        return std::numeric_limits<float>::infinity();
-      }
-      return clearance->at(map_T_object.turnedBack(away));
+      if (!isWithin(clearance->reach(), point_m)) return std::numeric_limits<float>::infinity();
+      return clearance->at(map_T_object.turnedBack(point_m - position_m));
+    }
+    bool isWithin(double range_m, const Eigen::Vector2d& point_m) const {
+      return std::abs(point_m.x() - position_m.x()) <= range_m &&
+             std::abs(point_m.y() - position_m.y()) <= range_m;
     }
   };
 
@@ -103,7 +104,8 @@ class ApproachCheck {
   const CollisionChecker& checker_;
   Patience patience_;
   std::vector<Standing> obstacles_;
-  std::optional<Standing> object_;  // the one that is pushed, where it now stands
+  std::optional<Standing> object_;     // the one that is pushed, where it now stands
+  std::vector<const Standing*> near_;  // obstacles that matter within kBeside_m of it
   std::unique_ptr<ApproachLibrary::Flood> flood_;
   // Of the last robot pose that canReach() was asked for.
   std::optional<std::pair<Pose2, Pose2>> begun_;
@@ -115,9 +117,7 @@ class ApproachCheck {
   // Of the last end of a push that canFollow() was asked for.
   std::optional<std::pair<Pose2, const PreparedCase*>> left_;
   Ends left_ends_;
-  // What the library said.
-  std::unordered_map<const PreparedCase*, std::shared_ptr<const Ways>> ways_;
-  std::unordered_map<const PreparedCase*, std::unordered_map<const PreparedCase*, bool>> direct_;
+  std::unique_ptr<ApproachLibrary::Known> known_;
 };
 
 }  // namespace casepush

@@ -122,6 +122,29 @@ void ApproachLibrary::giveBack(std::unique_ptr<Flood> flood) {
   floods_.push_back(std::move(flood));
 }
 
+std::unique_ptr<ApproachLibrary::Known> ApproachLibrary::borrowKnown(
+    const std::shared_ptr<const void>& owner) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = std::find_if(known_.begin(), known_.end(), [&owner](const auto& known) {
+    return owner != nullptr && known->owner.lock() == owner;
+  });
+  if (found == known_.end()) {
+    auto known = std::make_unique<Known>();
+    known->owner = owner;
+    return known;
+  }
+  std::unique_ptr<Known> known = std::move(*found);
+  known_.erase(found);
+  return known;
+}
+
+void ApproachLibrary::giveBack(std::unique_ptr<Known> known) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto is_gone = [](const auto& each) { return each->owner.expired(); };
+  known_.erase(std::remove_if(known_.begin(), known_.end(), is_gone), known_.end());
+  if (!is_gone(known)) known_.push_back(std::move(known));
+}
+
 // With the motions that the path planner makes, so that the two agree.
 ApproachLibrary::Ways ApproachLibrary::findWays(const std::string& model,
                                                 const PreparedCase& push_case) {

@@ -80,6 +80,16 @@ class ApproachLibrary {
   std::unique_ptr<Flood> borrowFlood(int cells);
   void giveBack(std::unique_ptr<Flood> flood);
 
+  /// What this said of some cases: to find them by their content takes longer.
+  struct Known {
+    std::weak_ptr<const void> owner;  ///< Of the cases.
+    std::unordered_map<const PreparedCase*, std::shared_ptr<const Ways>> ways;
+    std::unordered_map<const PreparedCase*, std::unordered_map<const PreparedCase*, bool>> direct;
+  };
+  /// As it was given back for the same owner, or empty.
+  std::unique_ptr<Known> borrowKnown(const std::shared_ptr<const void>& owner);
+  void giveBack(std::unique_ptr<Known> known);
+
   const Solid& solid(const std::string& model) const { return objects_.at(model).solid; }
   /// The robot where it travels: what the grid for ApproachCheck is made with.
   const std::vector<TravelDisc>& discs() const { return discs_; }
@@ -100,6 +110,7 @@ class ApproachLibrary {
   std::unordered_map<std::string, std::shared_ptr<const Ways>> ways_;  // by model and poses
   std::unordered_map<std::string, bool> direct_;
   std::vector<std::unique_ptr<Flood>> floods_;
+  std::vector<std::unique_ptr<Known>> known_;
 };
 
 }  // namespace casepush

@@ -102,6 +102,7 @@ class ExpRrt : public ompl::base::Planner {
 
   const PushTree& tree() const { return tree_; }
   const std::vector<PreparedCase>& cases() const { return set_->cases; }
+  const std::shared_ptr<const CaseSet>& caseSet() const { return set_; }
 
   /// Extensions attempted so far: the deterministic measure of work.
   int extensionCount() const { return extension_count_; }

@@ -155,7 +155,8 @@ PlanSearch::PlanSearch(const SearchProblem& problem, PushChecker* checker,
                    guide, approaches == Approaches::kSimple ? simpleApproach() : CanApproach())),
       checker_(checker),
       approaches_how_(approaches),
-      approaches_(problem, checker->collisions(), [&clock] { return clock.isOver(); }) {
+      approaches_(
+          problem, checker->collisions(), [&clock] { return clock.isOver(); }, rrt_.caseSet()) {
   rrt_.setProblemDefinition(definition_);
   rrt_.setup();
   if (keepsOutOfDeadEnds(problem.options) && !safety.first_plan_will_do) {
@@ -285,11 +286,12 @@ bool PlanSearch::canApproach(int node) {
 }
 
 ApproachVerifier::ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker,
-                                   std::function<bool()> stop)
+                                   std::function<bool()> stop,
+                                   const std::shared_ptr<const void>& owner)
     : problem_(problem),
       stop_(std::move(stop)),
       quick_(problem.approaches, problem.travel, checker, problem.request.obstacles,
-             Patience(stop_)),
+             Patience(stop_), owner),
       checker_(checker) {}
 
 bool ApproachVerifier::canApproach(const Pose2& map_T_object, const PreparedCase* previous,

@@ -80,8 +80,9 @@ bool keepsOutOfDeadEnds(const PushPlannerOptions& options);
 class ApproachVerifier {
  public:
   /// @param stop  Asked often; once it says true, the robot gets nowhere from afar.
+  /// @param owner  As of ApproachCheck.
   ApproachVerifier(const SearchProblem& problem, const CollisionChecker& checker,
-                   std::function<bool()> stop);
+                   std::function<bool()> stop, const std::shared_ptr<const void>& owner = nullptr);
 
   /// @param previous  The push that brought the object to `map_T_object`; nullptr for the first.
   bool canApproach(const Pose2& map_T_object, const PreparedCase* previous,
