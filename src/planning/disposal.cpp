@@ -14,6 +14,7 @@ Disposal::~Disposal() {
 }
 
 void Disposal::take(std::shared_ptr<const void> garbage) {
+  if (garbage.use_count() > 1) return;  // To wake a thread takes long, too.
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     garbage_.push_back(std::move(garbage));

@@ -17,6 +17,7 @@ class Disposal {
   Disposal(const Disposal&) = delete;
   Disposal& operator=(const Disposal&) = delete;
 
+  /// Nothing happens if others own it as well: the last of them will free it.
   /// @param garbage  Refers to nothing any more that its destructor needs; does not own this.
   void take(std::shared_ptr<const void> garbage);
 

@@ -90,6 +90,27 @@ TEST(ApproachCheck, reachesFromAfarWhatThePathPlannerReaches) {
   EXPECT_LT(found, 0.9 * all);
 }
 
+// What a check knew of cases is for these very cases only.
+TEST(ApproachCheck, answersTheSameWithWhatAnotherOneKnew) {
+  Comparison scene(furnishedRoom());
+  Random random(6);
+  for (int seed = 5; seed < 8; ++seed) {
+    const auto cases = std::make_shared<const std::vector<PreparedCase>>(prepareCases(
+        syntheticPushes(6, seed), 0.0, 0.025, testChair().radius_m, scene.robot.radius_m));
+    for (int round = 0; round < 2; ++round) {
+      ApproachCheck check(&scene.library, scene.grid, scene.checker, {}, Patience(), cases);
+      for (int i = 0; i < 60; ++i) {
+        const Pose2 pose = randomFreePose(scene.checker, *scene.object, &random);
+        const PreparedCase& previous = (*cases)[random.below(cases->size())];
+        const PreparedCase& next = (*cases)[random.below(cases->size())];
+        ApproachCheck fresh(&scene.library, scene.grid, scene.checker, {});
+        EXPECT_EQ(check.canFollow({"", "chair", pose}, previous, next),
+                  fresh.canFollow({"", "chair", pose}, previous, next));
+      }
+    }
+  }
+}
+
 TEST(RobotPathPlanner, endsWhenStopped) {
   Scene scene(emptyRoom());
   const PreparedCase push = prepareCase(syntheticPushes(1, 5).front(), 0.0, 0.025,
