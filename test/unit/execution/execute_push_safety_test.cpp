@@ -14,6 +14,16 @@ using test::FakeWorld;
 using test::firstTrial;
 using Phase = ExecutePush::Phase;
 
+Case preciseCase() {
+  FakeWorld world(6);
+  ExecutePush first = firstTrial();
+  EXPECT_EQ(test::run(first, world), BehaviourStatus::kSucceeded);
+  Case known = first.report()->recorded;
+  known.start_outcome.covariance = Eigen::Vector3d(0.02, 0.02, 0.05).cwiseAbs2().asDiagonal();
+  known.effective_count = 20;
+  return known;
+}
+
 TEST(ExecutePushSafety, stopsAtOnceWhenTheRobotsPoseIsStaleAndGoesOnAfterwards) {
   for (const Phase phase : {Phase::kApproach, Phase::kDock, Phase::kPush}) {
     FakeWorld world(4);
@@ -178,16 +188,11 @@ TEST(ExecutePushSafety, cancelBeforeTheFirstTickWorksToo) {
 }
 
 TEST(ExecutePushSafety, breaksOffWithinTenthsOfASecondIfTheObjectIsHeld) {
-  FakeWorld world(6);
-  ExecutePush first = firstTrial();
-  ASSERT_EQ(test::run(first, world), BehaviourStatus::kSucceeded);
-  Case known = first.report()->recorded;
-  known.start_outcome.covariance = Eigen::Vector3d(0.02, 0.02, 0.05).cwiseAbs2().asDiagonal();
-  known.effective_count = 20;
+  const Case known = preciseCase();
   for (const bool on : {true, false}) {
     ExecutePushOptions options;
     options.tube.on = on;
-    world = FakeWorld(7);
+    FakeWorld world(7);
     ExecutePush push("chair_1", known, test::fakeRobot(), test::detour, options);
     ASSERT_TRUE(test::runUntil(push, world, Phase::kPush));
     const double began_s = world.now_s;
@@ -247,16 +252,11 @@ TEST(ExecutePushSafety, stopsBeforeTheObjectTouchesSomething) {
 }
 
 TEST(ExecutePushSafety, anObjectThatIsStoppedOffItsCourseTellsThatTheCaseIsWrong) {
-  FakeWorld world(6);
-  ExecutePush first = firstTrial();
-  ASSERT_EQ(test::run(first, world), BehaviourStatus::kSucceeded);
-  Case known = first.report()->recorded;
-  known.start_outcome.covariance = Eigen::Vector3d(0.02, 0.02, 0.05).cwiseAbs2().asDiagonal();
-  known.effective_count = 20;
+  const Case known = preciseCase();
   ExecutePushOptions options;
   options.tube.on = true;
   options.tube.hold_s = 5.0;  // Without the stop it would go on.
-  world = FakeWorld(7);
+  FakeWorld world(7);
   ExecutePush push("chair_1", known, test::fakeRobot(), test::detour, options);
   bool is_there = false;
   push.watchAhead([&](const Observation&, const std::vector<Pose2>&) {
