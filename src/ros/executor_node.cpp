@@ -153,12 +153,18 @@ std::string ExecutorNode::whatIsMissing() const {
   if (odometry_.header.stamp.isZero()) {
     return "there is no odometry with a time stamp yet (topic odom)";
   }
+  const double now_s = ros::Time::now().toSec();
+  if (now_s - odometry_.header.stamp.toSec() > parameters_.lost_objects_s) {
+    return "odometry ceased (topic odom)";
+  }
   try {
-    robotPose(buffer_);
+    if (now_s - robotPose(buffer_).stamp_s > parameters_.lost_objects_s) {
+      return "the robot's pose is out of date (TF map -> base_link): has localisation stopped?";
+    }
   } catch (const InputError& error) {
     return error.what();
   }
-  if (ros::Time::now().toSec() - objects_stamp_s_ > parameters_.lost_objects_s) {
+  if (now_s - objects_stamp_s_ > parameters_.lost_objects_s) {
     return "there are no tracked poses (topic objects): is perception gone?";
   }
   return "";

@@ -8,7 +8,7 @@ import rostest
 
 import drill
 import harness
-from casepush.msg import PushObjectResult
+from casepush.msg import PushObjectGoal, PushObjectResult
 
 
 class DrillSensesTest(drill.Drill):
@@ -17,6 +17,20 @@ class DrillSensesTest(drill.Drill):
         self.relay.drop_share = 0.5
         self.start_task()
         self.finish_task()
+
+    def test_a_goal_is_refused_while_transforms_or_odometry_are_frozen(self):
+        for frozen, words in (("tf_frozen", "the robot's pose is out of date"),
+                              ("odometry_frozen", "odometry ceased")):
+            setattr(self.relay, frozen, True)
+            began_s = self.motion.wait().header.stamp.to_sec()
+            harness.wait_until(lambda t=began_s: self.now() > t + 3.0, what="three seconds")
+            self.push_object.send_goal(PushObjectGoal(object_id=harness.OBJECT,
+                                                      goal=harness.pose(1.2, 0.8, 0.5)))
+            result = harness.result_of(self.push_object)
+            self.assertEqual(result.status, PushObjectResult.NOT_READY, result.explanation)
+            self.assertIn(words, result.explanation)
+            self.relay.mend()
+        self.expect_next_task_succeeds()
 
     def test_transforms_freeze(self):
         self.start_task()
