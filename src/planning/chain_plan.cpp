@@ -36,7 +36,8 @@ ChainPlan planChain(const SearchProblem& problem, const CaseSet& set, PushChecke
   const PushTime& time = set.time;
   SearchChance chance(problem, cases, checker, safety);
   const bool is_lattice = problem.options.planner == PlannerKind::kLattice;
-  const OriginDistance map(checker->collisions().columns(), problem.object.solid,
+  // Without obstacles, which fill cells that they only touch: that would be no lower bound.
+  const OriginDistance map(*checker->collisions().mapColumns(), problem.object.solid,
                            request.map_T_goal.position(), request.tolerance.position_m,
                            clock.patience());
   if (!std::isfinite(map.at(request.object.map_T_object.position()))) {

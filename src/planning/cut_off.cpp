@@ -108,7 +108,9 @@ std::string placeTooNarrow(const SearchProblem& problem, const CollisionChecker&
 CutOff findCutOff(const SearchProblem& problem, PushChecker* checker,
                   const std::vector<PreparedCase>& cases, const SearchClock& clock) {
   const PlanRequest& request = problem.request;
-  const CollisionChecker::Columns& columns = checker->collisions().columns();
+  // Obstacles fill cells that they only touch, so that an object beside one would seem shut in.
+  const auto map_columns = checker->collisions().mapColumns();
+  const CollisionChecker::Columns& columns = *map_columns;
   const Patience patience = clock.patience();
   const Eigen::Vector2d start_m = request.object.map_T_object.position();
   const OriginDistance ways(columns, problem.object.solid, request.map_T_goal.position(),

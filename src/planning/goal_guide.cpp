@@ -11,6 +11,8 @@
 namespace casepush {
 namespace {
 
+// So much an object may seem to overlap another where it stands: poses are estimates.
+constexpr double kTolerated_m = 0.05;
 constexpr double kCell_m = 0.2;
 constexpr double kBeyond_m = 3.0;    // It looks half as far again as the start is, and this.
 constexpr double kSpacious_m = 0.3;  // More clearance than this, around the object, is not better.
@@ -100,7 +102,7 @@ std::vector<float> ObjectRoom::factors(const std::vector<PlacedSolid>& obstacles
           const bool is_blocked =
               std::any_of(inner_.begin(), inner_.end(), [&](const TravelDisc& inner) {
                 return part.touches(inner.low_m, inner.high_m) && part.isPrism() &&
-                       apart_m + half_diagonal_m < inner.radius_m;
+                       apart_m + half_diagonal_m + kTolerated_m < inner.radius_m;
               });
           own = is_blocked ? 0.0F : own > 0.0F ? std::max(own, factor(apart_m - reach_m_)) : 0.0F;
         }

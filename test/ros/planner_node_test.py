@@ -143,8 +143,9 @@ class PlannerNodeTest(unittest.TestCase):
         self.assertLess(result.planning_time, 1.0)
 
     def test_keeps_the_deadline_with_ten_thousand_cases(self):
-        case = harness.made_up_case(1, 0.0, 0.0)
-        many = PushCaseArray(cases=[copy.copy(case) for _ in range(10000)])
+        # Different enough that a tree grows, and shared, as a message of them all is large.
+        kinds = [harness.made_up_case(1, 0.063 * k, 0.1 * (k % 9 - 4)) for k in range(100)]
+        many = PushCaseArray(cases=[copy.copy(kinds[k % 100]) for k in range(10000)])
         for number, each in enumerate(many.cases):
             each.id = number + 1
         self.cases.publish(many)

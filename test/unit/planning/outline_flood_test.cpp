@@ -187,6 +187,26 @@ TEST(PushPlanner, saysWhichDoorIsTooNarrowForTheOrigin) {
   }
 }
 
+// Cells that another object only touches must not count as occupied.
+TEST(PushPlanner, doesNotTakeAnObjectForShutInBesideAnother) {
+  for (const PlannerKind kind : {PlannerKind::kExpRrt, PlannerKind::kLattice}) {
+    const auto planner = plannerFor(emptyRoom(), PushPlannerOptions::forPlanner(kind));
+    for (int i = 0; i < 24; ++i) {
+      const double bearing_rad = i * M_PI / 12.0;
+      const Pose2 start(4.0 + 0.013 * i, 7.5, 0.0);
+      PlanRequest request = requestFor(start, kGoal);
+      request.obstacles = {{"chair_2", "chair",
+                            Pose2(start.x() + 0.602 * std::cos(bearing_rad),
+                                  start.y() + 0.602 * std::sin(bearing_rad), 1.0)}};
+      const PlanResult result =
+          planner->plan(request, {syntheticPush(1, bearing_rad, 2.0, 0.0, {})});
+      EXPECT_EQ(result.status, PlanStatus::kUnreachable);
+      EXPECT_EQ(result.explanation.find("cannot be reached"), std::string::npos)
+          << toString(kind) << ", " << bearing_rad << " rad: " << result.explanation;
+    }
+  }
+}
+
 // The same door in a room where the object gets through.
 TEST(PushPlanner, goesThroughADoorThatIsJustWideEnough) {
   const DoorRoom room{1.0, 7.0, 0.2};
