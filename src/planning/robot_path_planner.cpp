@@ -356,10 +356,6 @@ RobotPath RobotPathPlanner::planWith(const CollisionChecker& checker, const Pose
   if (distance(map_T_robot, goal) < kDirect_m) {
     std::vector<Pose2> way = shortWay(checker, *prepared.docking, *prepared.travelling, map_T_robot,
                                       goal, dock_direction_rad);
-    if (way.empty() && !checker.collides(*prepared.docking, map_T_robot)) {
-      const StraightMotion direct(checker, *prepared.docking, {checker, *prepared.docking, goal});
-      if (!direct.firstBlock(map_T_robot, goal)) way = {map_T_robot, goal};
-    }
     if (!way.empty()) return alongWay(std::move(way));
   }
 

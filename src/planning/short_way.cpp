@@ -24,10 +24,10 @@ std::vector<Pose2> shortWay(const CollisionChecker& checker, const Footprint& do
                             double direction_rad) {
   const StraightMotion leave(checker, docking, {checker, docking, start});
   const StraightMotion dock(checker, docking, {checker, docking, goal});
-  if (distance(start, goal) < kThere_m && std::abs(yawDifference(start, goal)) < kThere_rad &&
-      !checker.collides(docking, start) && !dock.firstBlock(start, goal)) {
-    return {start, goal};
-  }
+  const bool is_there =
+      distance(start, goal) < kThere_m && std::abs(yawDifference(start, goal)) < kThere_rad;
+  const bool is_direct = !checker.collides(docking, start) && !dock.firstBlock(start, goal);
+  if (is_there && is_direct) return {start, goal};
   for (const double back_m : kDock_m) {
     const Pose2 before(goal.x() - back_m * std::cos(direction_rad),
                        goal.y() - back_m * std::sin(direction_rad), goal.yaw());
@@ -39,7 +39,7 @@ std::vector<Pose2> shortWay(const CollisionChecker& checker, const Footprint& do
     if (leave.firstBlock(start, left) || between_sides.firstBlock(left, before)) continue;
     if (!dock.firstBlock(before, goal)) return {start, before, goal};
   }
-  return {};
+  return is_direct ? std::vector<Pose2>{start, goal} : std::vector<Pose2>{};
 }
 
 }  // namespace casepush

@@ -11,7 +11,8 @@ namespace casepush {
 ///
 /// For the first part of the way the robot comes no closer to anything than where it stands. Then
 /// it keeps the docking margin, on longer ways the one for travelling, until it docks: there it
-/// comes no closer than at the dock pose.
+/// comes no closer than at the dock pose. Where nothing else is possible, it docks from where it
+/// stands, if it stands apart.
 /// @param docking  The robot grown by the docking margin.
 /// @param travelling  The robot grown by the margin that it keeps at speed.
 /// @param direction_rad  Of docking, in the map.
