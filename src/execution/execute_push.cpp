@@ -174,17 +174,18 @@ void ExecutePush::Data::conclude() {
                      ? testPrediction(past, start_T_end, options.alpha)
                      : testPlugIn(past, start_T_end, options.alpha);
   }
-  const std::string stopped = "stopped before " + object_id + " touched " + ahead_of;
-  if (!ahead_of.empty() && !broken_off) {
-    draft.test = {};
-    finish(PushOutcome::kStoppedShort, stopped);
-    return;
-  }
+  const std::string stopped =
+      ahead_of.empty() ? "" : "stopped before " + object_id + " touched " + ahead_of;
   if (broken_off) {
     draft.test.rejected = true;
     draft.test.p_value = std::min(draft.test.p_value, tube->pValue());
-    const std::string why = ahead_of.empty() ? "broken off" : stopped;
-    finish(PushOutcome::kBrokenOff, why + ": " + object_id + " was " + tube->describe());
+    finish(PushOutcome::kBrokenOff, (stopped.empty() ? "broken off" : stopped) + ": " + object_id +
+                                        " was " + tube->describe());
+    return;
+  }
+  if (!stopped.empty()) {
+    draft.test = {};
+    finish(PushOutcome::kStoppedShort, stopped);
     return;
   }
   if (start_T_end.position().norm() < kNotMovedM && std::abs(start_T_end.yaw()) < kNotMovedRad) {
